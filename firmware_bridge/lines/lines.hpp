@@ -1,0 +1,25 @@
+#pragma once
+
+namespace biotomy::bridge {
+
+enum class OutputRole { lamp, trigger, tower_light };
+
+/// The safety inputs as they are, polarity already applied. An input that cannot be read is
+/// reported in its unsafe state.
+struct SafetyInputs {
+  bool estop_pressed = true;
+  bool door_open = true;
+};
+
+/// The rig's digital lines, by role. Outputs go to off when the object is destroyed.
+/// One thread owns it. `set` throws DeviceError.
+class Lines {
+ public:
+  virtual ~Lines() = default;
+  virtual SafetyInputs read_inputs() = 0;
+  virtual void set(OutputRole role, bool on) = 0;
+};
+
+const char* to_string(OutputRole role);
+
+}  // namespace biotomy::bridge

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "reconstruct/geometry/cuboid.hpp"
+
+namespace biotomy::reconstruct {
+
+/// What `sample.toml` says of a sample. Written once, when the sample is begun.
+struct SampleDescription {
+  std::string name;
+  Cuboid cuboid;  ///< of the whole job; layers may still be missing at its deep end
+  int bits = 8;   ///< of one colour, 8 or 16
+  std::string notes;
+  std::string created;  ///< ISO 8601, UTC
+};
+
+/// A sample on disk: the folder and the names of what lies in it.
+class SampleFolder {
+ public:
+  /// Makes the folder with `sample.toml` and the empty folders in it. It must not exist yet, or be
+  /// empty. Throws SampleError.
+  static SampleFolder create(const std::filesystem::path& path,
+                             const SampleDescription& description);
+
+  /// Throws SampleError when it is not a sample or sample.toml does not make sense.
+  static SampleFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  const SampleDescription& description() const { return description_; }
+
+  /// The image of a section number, from 1: `layers/000001.tif`.
+  std::filesystem::path layer_path(std::int64_t layer) const;
+  std::filesystem::path volume_path() const;
+  std::filesystem::path journal_path() const;
+  std::filesystem::path rejected_path() const;
+
+ private:
+  SampleFolder(std::filesystem::path path, SampleDescription description);
+
+  std::filesystem::path path_;
+  SampleDescription description_;
+};
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace biotomy::reconstruct {
+
+/// Writes `bytes` so that after a crash at any moment the name holds the old content or the new,
+/// whole: a temporary file in the same folder, fsync, rename, fsync of the folder.
+/// Throws SampleError, with the temporary file removed.
+void write_durably(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_durably(const std::filesystem::path& path, const std::string& text);
+
+/// fsyncs a folder: what was created or renamed in it stays.
+void sync_folder(const std::filesystem::path& folder);
+
+/// Lower-case hexadecimal SHA-256.
+std::string sha256(std::span<const std::byte> bytes);
+std::string sha256_of_file(const std::filesystem::path& path);
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace biotomy::reconstruct {
+
+/// How a volume is cut up and encoded on disk. Sizes are in voxels in the order z, y, x; the three
+/// colours are never split. The defaults are chosen by measurement (docs/decisions.md).
+struct VolumeLayout {
+  std::array<int, 3> chunk{32, 32, 32};
+  std::array<int, 3> shard{32, 1024, 1024};  ///< each a multiple of the chunk's
+  bool interleaved =
+      true;  ///< colours stored voxel by voxel (codec `transpose`), not plane by plane
+  std::string codec = "blosc-lz4-bitshuffle";  ///< a name that `codec_chain` knows
+};
+
+}  // namespace biotomy::reconstruct

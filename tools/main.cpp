@@ -1,0 +1,42 @@
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/command.hpp"
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kUsage = 2;
+
+int fail(int code, const char* what) {
+  std::cerr << "biotomy: " << what << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Turns photographs of a ground block into a volume and cuts it along any plane."};
+  app.set_version_flag("--version", BIOTOMY_VERSION);
+  app.require_subcommand(1);
+  biotomy::tools::add_import_command(app);
+  biotomy::tools::add_info_command(app);
+  biotomy::tools::add_section_command(app);
+  biotomy::tools::add_series_command(app);
+  biotomy::tools::add_rig_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return fail(kUsage, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(kUsage, error.what());
+  } catch (const std::exception& error) {
+    return fail(kFailure, error.what());
+  }
+  return 0;
+}
