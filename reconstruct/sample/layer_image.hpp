@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include <opencv2/core/mat.hpp>
@@ -10,12 +11,16 @@
 
 namespace biotomy::reconstruct {
 
+class TiffFile;
+
 enum class LayerCompression { zstd, deflate };
 
 /// How layer images are written: lossless TIFF in tiles of 256 × 256 with the horizontal predictor.
 struct LayerFormat {
   LayerCompression compression = LayerCompression::zstd;
   int level = 1;
+  /// Bytes; what is larger becomes a BigTIFF, as a TIFF ends at 4 GiB.
+  std::uint64_t largest_classic_tiff = 0xF0000000;
 };
 
 /// What is written into the file beside the pixels.
@@ -31,8 +36,8 @@ struct StoredLayer {
 };
 
 /// Encodes `image` (CV_8UC3 or CV_16UC3, R G B) and stores it durably: written beside, fsynced,
-/// renamed, the folder fsynced, then read back and its hash compared. Tiles are compressed in
-/// parallel. Replaces a file of that name. Throws SampleError; then no file of that name is new.
+/// read back and its hash compared, renamed, the folder fsynced. Tiles are compressed in parallel.
+/// Replaces a file of that name. Throws SampleError; then no file of that name is new.
 StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& image,
                               const LayerPosition& position, const LayerFormat& format);
 
@@ -56,10 +61,11 @@ class LayerImageReader {
   cv::Mat read(const cv::Rect& region);
 
  private:
-  std::filesystem::path path_;
-  void* tiff_;  // TIFF*; libtiff's header stays out of this one
+  std::unique_ptr<TiffFile> file_;
   int width_ = 0;
   int height_ = 0;
+  int tile_width_ = 0;
+  int tile_height_ = 0;
   int type_ = 0;
 };
 

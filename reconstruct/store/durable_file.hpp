@@ -13,6 +13,11 @@ namespace biotomy::reconstruct {
 void write_durably(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_durably(const std::filesystem::path& path, const std::string& text);
 
+/// As write_durably, and what the disk gives back is compared before the file gets its name, so
+/// that the old content is lost only to a good copy of the new. Returns the SHA-256.
+std::string write_durably_verified(const std::filesystem::path& path,
+                                   std::span<const std::byte> bytes);
+
 /// fsyncs a folder: what was created or renamed in it stays.
 void sync_folder(const std::filesystem::path& folder);
 

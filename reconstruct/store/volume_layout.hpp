@@ -13,6 +13,11 @@ struct VolumeLayout {
   bool interleaved =
       true;  ///< colours stored voxel by voxel (codec `transpose`), not plane by plane
   std::string codec = "blosc-lz4-bitshuffle";  ///< a name that `codec_chain` knows
+
+  friend bool operator==(const VolumeLayout&, const VolumeLayout&) = default;
 };
+
+/// Throws InvalidRequest when chunk and shard do not fit each other or the codec is not known.
+void check_layout(const VolumeLayout& layout);
 
 }  // namespace biotomy::reconstruct

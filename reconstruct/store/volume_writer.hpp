@@ -16,7 +16,8 @@ namespace biotomy::reconstruct {
 /// One writer at a time; readers may read at any moment.
 class VolumeWriter {
  public:
-  /// Creates the store's metadata, or opens the store that is there. Throws SampleError.
+  /// Creates the store's metadata, or opens the store that is there, which then keeps the layout
+  /// that it has. Throws SampleError, and InvalidRequest for a layout that cannot be.
   VolumeWriter(const SampleFolder& sample, const VolumeLayout& layout);
 
   int band_depth() const { return layout_.shard[0]; }
@@ -24,8 +25,9 @@ class VolumeWriter {
   /// Layers that are in the volume; a multiple of band_depth() until the job is finished.
   std::int64_t layers_written() const { return layers_written_; }
 
-  /// Writes every band that `layers_available` consecutive layer files complete, and with `finish`
-  /// also the incomplete last one. `progress(layers_written)` is called after each band.
+  /// Writes every band that layer files 1 to `layers_available` complete (the deepest band of a job
+  /// is complete with its last layer), and with `finish` also an incomplete one.
+  /// `progress(layers_written)` is called after each band.
   void append(std::int64_t layers_available, bool finish,
               const std::function<void(std::int64_t)>& progress = {});
 

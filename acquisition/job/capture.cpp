@@ -1,0 +1,20 @@
+#include "acquisition/job/capture.hpp"
+
+#include "acquisition/log.hpp"
+#include "firmware_bridge/device_error.hpp"
+
+namespace biotomy::acquisition {
+
+bridge::Frame capture(bridge::Camera& camera, std::chrono::milliseconds time_out) {
+  try {
+    return camera.capture(time_out);
+  } catch (const bridge::DeviceError& error) {
+    const bool can_help = error.kind() == bridge::DeviceError::Kind::timeout ||
+                          error.kind() == bridge::DeviceError::Kind::disconnected;
+    if (!can_help) throw;
+    log_warning("camera", std::string(error.what()) + "; asking once more");
+  }
+  return camera.capture(time_out);
+}
+
+}  // namespace biotomy::acquisition

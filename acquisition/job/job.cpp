@@ -1,0 +1,373 @@
+#include "acquisition/job/job.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "acquisition/log.hpp"
+#include "acquisition/records/utc_time.hpp"
+#include "firmware_bridge/device_error.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr const char* kComponent = "job";
+
+/// The steps that the layer cycle does.
+bool is_layer_step(JobState state) {
+  switch (state) {
+    case JobState::grinding:
+    case JobState::retracting:
+    case JobState::clearing:
+    case JobState::settling:
+    case JobState::lighting:
+    case JobState::focusing:
+    case JobState::capturing:
+    case JobState::assessing:
+    case JobState::storing:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::chrono::milliseconds limit_of(JobState state, const JobSettings& settings) {
+  const SafetyLimits& limits = settings.limits;
+  switch (state) {
+    case JobState::preflight:
+      return limits.preflight_limit;
+    case JobState::recovering:
+      return limits.recovery_limit;
+    case JobState::homing:
+      return limits.home_limit;
+    case JobState::grinding:
+      return limits.grind_limit;
+    case JobState::retracting:
+      return limits.retract_limit;
+    case JobState::clearing:
+      return settings.plan.clear_duration + limits.clear_limit;
+    case JobState::focusing:
+      return limits.focus_limit;
+    case JobState::capturing:
+      return 2 * settings.camera.capture_time_out + limits.capture_limit;
+    case JobState::assessing:
+      return limits.assess_limit;
+    case JobState::storing:
+      return limits.store_limit;
+    case JobState::resetting:
+      return limits.reset_limit;
+    default:
+      return std::chrono::milliseconds::max();  // ends by itself, or watches its own limit
+  }
+}
+
+}  // namespace
+
+Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surroundings,
+         std::uint32_t last_sequence)
+    : settings_(settings),
+      parts_(parts),
+      surroundings_(std::move(surroundings)),
+      commands_(parts.stage, settings_.limits),
+      supervision_(settings_.limits),
+      parking_(commands_, settings_.limits) {
+  commands_.raise_to(last_sequence);
+  alarm_ = Alarm{"the daemon has just started: look at the rig, then acknowledge",
+                 utc_text(surroundings_.wall_clock())};
+}
+
+bool Job::at_rest() const {
+  return is_at_rest(state_) && fault_parking_ == FaultParking::none && !stop_wanted_;
+}
+
+void Job::tick(TimePoint now) {
+  exchange(now);
+  supervise(now);
+  hear_operator(now);
+  advance(now);
+  publish();
+  answer_operator();
+}
+
+void Job::exchange(TimePoint now) {
+  fresh_.reset();
+  try {
+    fresh_ = parts_.stage.exchange(++heartbeat_);
+    if (!last_status_) {
+      commands_.raise_to(std::max(fresh_->sequence_started, fresh_->sequence_finished));
+    }
+    last_status_ = fresh_;
+    silence_logged_ = false;
+  } catch (const bridge::DeviceError& error) {
+    if (!std::exchange(silence_logged_, true)) log_warning("stage", error.what());
+  }
+  inputs_ = parts_.lines.read_inputs();
+  supervision_.observe(fresh_, inputs_, now);
+}
+
+void Job::supervise(TimePoint now) {
+  // At rest there is nothing to stop; while the latch is being reset, `poll_resetting` looks.
+  if (is_at_rest(state_) || state_ == JobState::resetting) return;
+  if (const auto cause = supervision_.cause()) {
+    fault(*cause, now);
+    return;
+  }
+  const bool past_homing = is_layer_step(state_) && state_ != JobState::storing;
+  if (past_homing && fresh_ && !fresh_->interlocks.homed) {
+    fault("the controller lost its reference: its axes are not homed any more", now);
+    return;
+  }
+  if (keeper_) {
+    if (const auto failure = keeper_->failure())
+      fault("a record was not written: " + *failure, now);
+  }
+}
+
+void Job::advance(TimePoint now) {
+  if (state_ == JobState::faulted) {
+    park_after_fault(now);
+    return;
+  }
+  if (is_at_rest(state_)) return;
+  try {
+    const auto limit = limit_of(state_, settings_);
+    if (limit != std::chrono::milliseconds::max() && now - step_begin_ > limit) {
+      throw StepFailure(std::string(to_string(state_)) + " took longer than " +
+                        std::to_string(limit.count()) + " ms: it " + waiting_for());
+    }
+    if (!fresh_) return;  // without a view of the rig nothing moves on
+    const std::optional<JobEvent> event = poll_step(now);
+    count_committed(now);
+    if (event) go(*event, now);
+  } catch (const std::exception& error) {
+    count_committed(now);
+    fault(error.what(), now);
+  }
+}
+
+void Job::count_committed(TimePoint now) {
+  if (!cycle_ || !cycle_->last_committed()) return;
+  if (cycle_->last_committed()->layer <= committed_) return;
+  committed_ = cycle_->last_committed()->layer;
+  last_commit_ = now;
+}
+
+std::optional<JobEvent> Job::poll_step(TimePoint now) {
+  if (is_layer_step(state_)) return cycle_->poll(state_, *fresh_, now);
+  switch (state_) {
+    case JobState::preflight:
+      return poll_preflight();
+    case JobState::recovering:
+      return poll_recovering();
+    case JobState::homing:
+      return poll_homing(now);
+    case JobState::pausing:
+    case JobState::aborting:
+      return parking_.poll(*fresh_, now) ? std::optional(JobEvent::step_done) : std::nullopt;
+    case JobState::finishing:
+      return poll_finishing(now);
+    case JobState::resetting:
+      return poll_resetting(now);
+    default:
+      return std::nullopt;
+  }
+}
+
+void Job::go(JobEvent event, TimePoint now) {
+  std::optional<JobState> next = next_state(state_, event);
+  if (!next) {
+    throw std::logic_error(std::string(to_string(event)) + " is forbidden in the state " +
+                           to_string(state_));
+  }
+  if (event == JobEvent::attempts_exhausted) {
+    note("alarm", "no frame of layer " + std::to_string(cycle_->layer()) +
+                      " was good enough in max_attempts attempts: look at it, then resume");
+  }
+  // A pause that was asked for is taken as soon as the table allows it.
+  if (pause_requested_) next = next_state(*next, JobEvent::pause).value_or(*next);
+  enter(*next, now);
+}
+
+void Job::enter(JobState state, TimePoint now) {
+  const JobState from = std::exchange(state_, state);
+  step_begin_ = now;
+  step_command_begun_ = false;
+  if (is_layer_step(state)) {
+    if (!run_began_) {
+      run_began_ = now;
+      committed_at_start_ = committed_;
+    }
+    cycle_->begin(state, *fresh_, now);
+    return;
+  }
+  log_info(kComponent, std::string(to_string(from)) + " → " + to_string(state));
+  note("state", std::string("from ") + to_string(from));
+  switch (state) {
+    case JobState::preflight:
+      begin_preflight();
+      break;
+    case JobState::pausing:
+    case JobState::finishing:
+    case JobState::aborting:
+      if (cycle_) cycle_->abandon(to_string(state));
+      lamp_and_tower(false);
+      parking_.begin(state == JobState::aborting ? Parking::From::motion : Parking::From::rest,
+                     now);
+      volume_moved_ = now;
+      if (state == JobState::finishing) feed_->finish(committed_);
+      break;
+    case JobState::resetting:
+      begin_resetting(now);
+      break;
+    case JobState::idle:
+    case JobState::paused:
+      pause_requested_ = false;
+      if (reset_answer_) {
+        answers_.push_back({std::move(*reset_answer_), {true, "the latch is open"}});
+      }
+      reset_answer_.reset();
+      if (std::exchange(start_after_reset_, false)) go(JobEvent::start, now);
+      break;
+    case JobState::done:
+    case JobState::aborted:
+      pause_requested_ = false;
+      job_begun_ = false;
+      break;
+    default:
+      break;
+  }
+}
+
+void Job::fault(const std::string& cause, TimePoint now) {
+  log_error(kComponent, std::string("stopped while ") + to_string(state_) + ": " + cause);
+  alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock())};
+  note("alarm", cause);
+  state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
+  start_up_latch_ = false;
+  start_after_reset_ = false;
+  if (reset_answer_) answers_.push_back({std::move(*reset_answer_), {false, cause}});
+  reset_answer_.reset();
+  step_begin_ = now;
+  pause_requested_ = false;
+  inspection_ = {};
+  stop_wanted_ = !commands_.stop_now(now);
+  fault_parking_ = FaultParking::wanted;
+  fault_park_until_ = now + settings_.limits.park_limit;
+  if (cycle_) cycle_->abandon(cause);
+  lamp_and_tower(true);
+}
+
+void Job::halt(TimePoint now) {
+  if (!at_rest()) fault("the daemon was stopped before the rig was at rest", now);
+}
+
+void Job::park_after_fault(TimePoint now) {
+  if (now > fault_park_until_) {
+    // Who doesn't listen for so long is left to its own watchdog; a person is called anyway.
+    stop_wanted_ = false;
+    fault_parking_ = FaultParking::none;
+  }
+  if (!fresh_) return;
+  if (stop_wanted_) stop_wanted_ = !commands_.stop_now(now);
+  if (stop_wanted_ || fault_parking_ == FaultParking::none) return;
+
+  // On an e-stop, an open door or a fault of its own the controller retracts by itself, and takes
+  // no command: then there is nothing more to do.
+  const bool controller_acts = fresh_->state == bridge::ControllerState::faulted ||
+                               fresh_->interlocks.estop_pressed || fresh_->interlocks.door_open ||
+                               inputs_.estop_pressed || inputs_.door_open;
+  try {
+    if (controller_acts) {
+      fault_parking_ = FaultParking::none;
+    } else if (fault_parking_ == FaultParking::wanted) {
+      parking_.begin(Parking::From::stopped, now);
+      fault_parking_ = FaultParking::under_way;
+    } else if (parking_.poll(*fresh_, now)) {
+      fault_parking_ = FaultParking::none;
+    }
+  } catch (const StepFailure& failure) {
+    log_error(kComponent, std::string("the rig could not be parked: ") + failure.what());
+    fault_parking_ = FaultParking::none;
+  }
+}
+
+void Job::lamp_and_tower(bool tower) {
+  for (const auto& [role, on] : {std::pair{bridge::OutputRole::lamp, false},
+                                 std::pair{bridge::OutputRole::tower_light, tower}}) {
+    try {
+      parts_.lines.set(role, on);
+    } catch (const bridge::DeviceError& error) {
+      // Neither lamp nor tower light hold up the stop. A rig without a tower light says so here.
+      log_warning("lines", error.what());
+    }
+  }
+}
+
+void Job::note(const char* kind, const std::string& text) {
+  if (!keeper_) return;
+  keeper_->post([kind, state = to_string(state_), layer = cycle_ ? cycle_->layer() : 0,
+                 text](SampleRecords& records) { records.record_event(kind, state, layer, text); });
+}
+
+std::string Job::waiting_for() const {
+  if (!fresh_ && !is_at_rest(state_)) return "waits for the controller to answer";
+  if (is_layer_step(state_)) return cycle_->waiting_for(state_);
+  switch (state_) {
+    case JobState::preflight:
+      return "waits for the camera, the sample and the disk";
+    case JobState::recovering:
+      return "waits for the controller to be idle";
+    case JobState::homing:
+      return "waits for the axes to find their reference";
+    case JobState::pausing:
+    case JobState::aborting:
+      return parking_.waiting_for();
+    case JobState::finishing: {
+      const std::string parking = parking_.waiting_for();
+      return parking.empty() ? "waits for the volume to be complete" : parking;
+    }
+    case JobState::resetting:
+      return "waits for the controller to leave its fault";
+    case JobState::faulted:
+      return fault_parking_ == FaultParking::none ? "waits for an operator to acknowledge"
+                                                  : "waits for the rig to be parked";
+    case JobState::paused:
+      return "waits for an operator to resume";
+    default:
+      return "";
+  }
+}
+
+std::optional<double> Job::seconds_left() const {
+  const std::int64_t made = committed_ - committed_at_start_;
+  if (!run_began_ || made <= 0 || is_at_rest(state_)) return std::nullopt;
+  const std::chrono::duration<double> taken = last_commit_ - *run_began_;
+  return taken.count() / static_cast<double>(made) *
+         static_cast<double>(settings_.plan.layers - committed_);
+}
+
+void Job::publish() {
+  JobStatus status;
+  status.state = state_;
+  status.waiting_for = waiting_for();
+  status.pause_requested = pause_requested_;
+  status.job = settings_.plan.name;
+  status.sample = settings_.plan.sample.string();
+  status.layers = settings_.plan.layers;
+  status.committed = committed_;
+  status.seconds_left = seconds_left();
+  status.controller_answers = fresh_.has_value();
+  status.stage = last_status_;
+  status.lines = inputs_;
+  status.alarm = alarm_;
+  if (cycle_) {
+    status.layer = cycle_->layer();
+    status.attempt = cycle_->attempt();
+    status.last_layer = cycle_->last_committed();
+    status.disk_left_layers = cycle_->disk_left_layers();
+  }
+  if (feed_) status.volume = feed_->progress();
+  parts_.board.publish(std::move(status));
+}
+
+}  // namespace biotomy::acquisition

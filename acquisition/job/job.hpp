@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acquisition/job/job_settings.hpp"
+#include "acquisition/job/job_states.hpp"
+#include "acquisition/job/job_status.hpp"
+#include "acquisition/job/layer_cycle.hpp"
+#include "acquisition/job/operator_desk.hpp"
+#include "acquisition/job/parking.hpp"
+#include "acquisition/job/preflight.hpp"
+#include "acquisition/job/recovery.hpp"
+#include "acquisition/job/stage_commands.hpp"
+#include "acquisition/job/supervision.hpp"
+#include "acquisition/job/surroundings.hpp"
+#include "acquisition/job/worker.hpp"
+#include "acquisition/records/record_keeper.hpp"
+
+namespace biotomy::acquisition {
+
+/// What a job works with. All outlive it. The camera belongs to the worker's thread, stage and
+/// lines to the thread that calls `tick`.
+struct JobParts {
+  bridge::Stage& stage;
+  bridge::Lines& lines;
+  bridge::Camera& camera;
+  Worker& worker;         ///< for camera and disk
+  Worker& volume_worker;  ///< for the volume, which is never in the rig's way
+  OperatorDesk& desk;
+  StatusBoard& board;
+};
+
+/// A job from its start to its end, moved on by `tick`: exchange the heartbeat, read the inputs,
+/// supervise, answer the operator, move the step at hand on. Nothing in a tick blocks for longer
+/// than the devices' response time-outs.
+///
+/// It begins faulted, as a latch does. An operator opens the latch by `acknowledge`; when it is
+/// closed for no other reason than that the daemon has just started, `start` does both.
+class Job {
+ public:
+  /// `last_sequence`: the highest command number that the sample's journal knows; 0 if none.
+  Job(const JobSettings& settings, const JobParts& parts, Surroundings surroundings,
+      std::uint32_t last_sequence);
+
+  void tick(TimePoint now);
+
+  /// The last word before the program ends: stops a rig that could not be brought to rest.
+  void halt(TimePoint now);
+
+  JobState state() const { return state_; }
+
+  /// True when nothing moves or is about to, also not the parking after an alarm.
+  bool at_rest() const;
+
+ private:
+  void exchange(TimePoint now);
+  void supervise(TimePoint now);
+  void hear_operator(TimePoint now);
+  void answer_operator();
+  OperatorReply obey(OperatorCommand command, TimePoint now);
+  OperatorReply begin(JobEvent event, TimePoint now);
+  OperatorReply acknowledge(TimePoint now);
+  void advance(TimePoint now);
+  void count_committed(TimePoint now);
+  void publish();
+
+  std::optional<JobEvent> poll_step(TimePoint now);
+  std::optional<JobEvent> poll_preflight();
+  std::optional<JobEvent> poll_recovering();
+  std::optional<JobEvent> poll_homing(TimePoint now);
+  std::optional<JobEvent> poll_finishing(TimePoint now);
+  std::optional<JobEvent> poll_resetting(TimePoint now);
+  void begin_preflight();
+  void begin_resetting(TimePoint now);
+
+  /// Takes the transition, which the table must allow, and begins the step it leads to.
+  void go(JobEvent event, TimePoint now);
+  void enter(JobState state, TimePoint now);
+  void fault(const std::string& cause, TimePoint now);
+  void park_after_fault(TimePoint now);
+  void lamp_and_tower(bool tower);
+  void note(const char* kind, const std::string& text);
+  std::string waiting_for() const;
+  std::optional<double> seconds_left() const;
+
+  JobSettings settings_;
+  JobParts parts_;
+  Surroundings surroundings_;
+  StageCommands commands_;
+  Supervision supervision_;
+  Parking parking_;
+
+  JobState state_ = JobState::faulted;
+  std::optional<Alarm> alarm_;
+  bool start_up_latch_ = true;  ///< faulted only because the daemon has just started
+  bool start_after_reset_ = false;
+  bool pause_requested_ = false;
+  struct Answer {
+    std::promise<OperatorReply> promise;
+    OperatorReply reply;
+  };
+  std::vector<Answer> answers_;  ///< given at the tick's end, when the board shows what they tell
+  std::optional<std::promise<OperatorReply>> reset_answer_;  ///< given when the latch has opened
+  bool shutting_down_ = false;
+  bool job_begun_ = false;  ///< and neither done nor aborted
+
+  std::uint16_t heartbeat_ = 0;
+  std::optional<bridge::StageStatus> fresh_;  ///< of this tick; nothing when the exchange failed
+  std::optional<bridge::StageStatus> last_status_;
+  bool silence_logged_ = false;
+  bridge::SafetyInputs inputs_;
+
+  TimePoint step_begin_{};
+  bool step_command_begun_ = false;
+  enum class FaultParking { none, wanted, under_way } fault_parking_ = FaultParking::none;
+  bool stop_wanted_ = false;
+  TimePoint fault_park_until_{};
+
+  std::future<PreflightFindings> inspection_;
+  bridge::StageIdentity identity_;
+  PreflightFindings findings_;
+  std::optional<RecordKeeper> keeper_;
+  std::optional<VolumeFeed> feed_;
+  std::optional<Continuation> continuation_;
+  std::unique_ptr<LayerCycle> cycle_;
+
+  std::int64_t committed_ = 0;
+  std::int64_t committed_at_start_ = 0;
+  std::optional<TimePoint> run_began_;
+  TimePoint last_commit_{};
+  std::int64_t volume_seen_ = 0;
+  TimePoint volume_moved_{};
+};
+
+}  // namespace biotomy::acquisition

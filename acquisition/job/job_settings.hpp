@@ -1,0 +1,22 @@
+#pragma once
+
+#include "acquisition/focus/autofocus.hpp"
+#include "acquisition/job/job_plan.hpp"
+#include "acquisition/job/quality_ladder.hpp"
+#include "acquisition/job/safety_limits.hpp"
+#include "acquisition/quality/assessment.hpp"
+
+namespace biotomy::acquisition {
+
+/// All that decides how a job runs.
+struct JobSettings {
+  JobPlan plan;
+  CameraPlan camera;
+  FocusSettings focus;
+  QualityThresholds thresholds;
+  LadderSettings ladder;
+  StorePlan store;
+  SafetyLimits limits;
+};
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,123 @@
+// The steps of a job around the layers: preflight, recovering, homing, finishing, resetting.
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "acquisition/job/job.hpp"
+#include "acquisition/log.hpp"
+
+namespace biotomy::acquisition {
+
+void Job::begin_preflight() {
+  job_begun_ = true;
+  alarm_.reset();
+  continuation_.reset();
+  run_began_.reset();
+  cycle_.reset();
+  identity_ = parts_.stage.identify();
+  if (const auto complaint = stage_complaint(settings_, identity_)) throw StepFailure(*complaint);
+  // The records of an earlier run are closed, after all they still write, before they are opened
+  // anew: one journal has one writer.
+  feed_.reset();
+  keeper_.reset();
+  findings_ = {};
+  inspection_ = run_on(
+      parts_.worker, [settings = settings_, camera = &parts_.camera, surroundings = surroundings_] {
+        return inspect(settings, *camera, surroundings);
+      });
+}
+
+std::optional<JobEvent> Job::poll_preflight() {
+  if (!is_ready(inspection_)) return std::nullopt;
+  findings_ = inspection_.get();
+  commands_.raise_to(std::max(
+      {findings_.journal.last_sequence, fresh_->sequence_started, fresh_->sequence_finished}));
+  keeper_.emplace(parts_.worker, findings_.records);
+  feed_.emplace(parts_.volume_worker, surroundings_.open_volume(findings_.records->sample(),
+                                                                settings_.store.volume_layout));
+  committed_ = findings_.journal.last_committed;
+  feed_->offer(committed_);
+  note("operator", "begun; " + std::to_string(committed_) + " layers are committed");
+  return JobEvent::step_done;
+}
+
+std::optional<JobEvent> Job::poll_recovering() {
+  if (fresh_->state != bridge::ControllerState::idle) return std::nullopt;
+  const auto answer = where_to_go_on(settings_.plan, findings_.journal, *fresh_, settings_.limits);
+  if (const auto* disagreement = std::get_if<Disagreement>(&answer)) {
+    throw StepFailure(disagreement->sentence);
+  }
+  continuation_ = std::get<Continuation>(answer);
+  if (continuation_->finished_grind) {
+    keeper_->post(
+        [sequence = *continuation_->finished_grind, status = *fresh_](SampleRecords& records) {
+          records.end_grind(sequence, bridge::CommandResult::done, status);
+        });
+  }
+  if (continuation_->layer > settings_.plan.layers) return JobEvent::nothing_left;
+
+  note("recovery", "goes on with layer " + std::to_string(continuation_->layer) +
+                       (continuation_->ground ? ", which is ground already" : ""));
+  cycle_ = std::make_unique<LayerCycle>(
+      settings_,
+      CycleParts{commands_, parts_.lines, parts_.camera, parts_.worker, *keeper_, *feed_},
+      CycleStart{findings_.journal, identity_.column, findings_.camera,
+                 findings_.disk_left_layers});
+  return JobEvent::agreed;
+}
+
+std::optional<JobEvent> Job::poll_homing(TimePoint now) {
+  if (!step_command_begun_ && !fresh_->interlocks.homed) {
+    commands_.begin({.action = bridge::StageAction::home}, now);
+    step_command_begun_ = true;
+    return std::nullopt;
+  }
+  if (step_command_begun_) {
+    if (!commands_.poll_done(*fresh_, now)) return std::nullopt;
+    if (!fresh_->interlocks.homed) {
+      throw StepFailure("the controller finished homing but says that it is not homed");
+    }
+  }
+  return continuation_->ground ? JobEvent::photograph_next : JobEvent::grind_next;
+}
+
+std::optional<JobEvent> Job::poll_finishing(TimePoint now) {
+  if (!parking_.poll(*fresh_, now)) return std::nullopt;
+  const VolumeFeed::Progress volume = feed_->progress();
+  if (volume.layers_present != volume_seen_) {
+    volume_seen_ = volume.layers_present;
+    volume_moved_ = now;
+  }
+  if (volume.finished) return JobEvent::step_done;
+  // The layers are safe; a volume that fails does not make the job fail.
+  if (!volume.failure.empty() || now - volume_moved_ > settings_.limits.volume_limit) {
+    log_error("volume", "it is not complete; make it anew with biotomy rebuild");
+    note("alarm",
+         "the volume is not complete: " +
+             (volume.failure.empty() ? std::string("it does not grow any more") : volume.failure));
+    return JobEvent::step_done;
+  }
+  return std::nullopt;
+}
+
+void Job::begin_resetting(TimePoint now) {
+  const bool latched = fresh_ && (fresh_->state == bridge::ControllerState::faulted ||
+                                  fresh_->interlocks.watchdog_tripped);
+  if (!latched) return;
+  commands_.begin({.action = bridge::StageAction::reset_fault}, now);
+  step_command_begun_ = true;
+}
+
+std::optional<JobEvent> Job::poll_resetting(TimePoint now) {
+  if (const auto cause = supervision_.standing_cause()) throw StepFailure(*cause);
+  if (step_command_begun_ && !commands_.poll_done(*fresh_, now)) return std::nullopt;
+  if (fresh_->state == bridge::ControllerState::faulted || fresh_->interlocks.watchdog_tripped) {
+    return std::nullopt;
+  }
+  alarm_.reset();
+  start_up_latch_ = false;
+  lamp_and_tower(false);
+  return job_begun_ ? JobEvent::reset_with_job : JobEvent::reset_without_job;
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,246 @@
+#include "acquisition/job/layer_cycle.hpp"
+
+#include <utility>
+
+#include "acquisition/job/capture.hpp"
+#include "acquisition/job/parking.hpp"
+#include "acquisition/log.hpp"
+
+namespace biotomy::acquisition {
+
+using bridge::StageAction;
+
+LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
+                       const CycleStart& start)
+    : settings_(settings),
+      parts_(parts),
+      focus_memory_(settings.focus, settings.plan.layer_thickness),
+      grind_(settings, parts.commands, parts.keeper),
+      focus_(settings, start.column, focus_memory_, parts.commands, parts.camera, parts.worker,
+             parts.keeper),
+      layer_(start.journal.last_committed + 1),
+      attempt_(start.journal.last_attempt),
+      disk_left_layers_(start.disk_left_layers) {
+  expectation_.width = start.camera.width;
+  expectation_.height = start.camera.height;
+  expectation_.type = settings.plan.bits == 16 ? CV_16UC3 : CV_8UC3;
+  if (const auto& focus = start.journal.last_focus) {
+    focus_memory_.remember(focus->layer, {focus->column, focus->sharpness});
+  }
+}
+
+void LayerCycle::begin(JobState step, const bridge::StageStatus& status, TimePoint now) {
+  step_begin_ = now;
+  switch (step) {
+    case JobState::grinding:
+      grind_.begin(layer_, status);
+      break;
+    case JobState::retracting:
+      parts_.commands.begin({.action = StageAction::retract}, now);
+      break;
+    case JobState::clearing:
+      parts_.commands.begin({.action = StageAction::clear_face,
+                             .position = {},
+                             .duration = settings_.plan.clear_duration,
+                             .spindle_rpm = 0.0},
+                            now);
+      break;
+    case JobState::lighting:
+      parts_.lines.set(bridge::OutputRole::lamp, true);
+      break;
+    case JobState::focusing:
+      focus_.begin(layer_,
+                   std::exchange(focus_again_, false) ? "the quality ladder asked for it"
+                                                      : focus_memory_.why_search(layer_),
+                   now);
+      break;
+    case JobState::capturing:
+      begin_capture(status);
+      break;
+    case JobState::assessing:
+      begin_assessment();
+      break;
+    case JobState::storing:
+      parts_.lines.set(bridge::OutputRole::lamp, false);
+      begin_storing();
+      break;
+    default:
+      break;
+  }
+}
+
+std::optional<JobEvent> LayerCycle::poll(JobState step, const bridge::StageStatus& status,
+                                         TimePoint now) {
+  const auto done_if = [](bool done) {
+    return done ? std::optional(JobEvent::step_done) : std::nullopt;
+  };
+  switch (step) {
+    case JobState::grinding:
+      return done_if(grind_.poll(status, now));
+    case JobState::retracting:
+      if (!parts_.commands.poll_done(status, now)) return std::nullopt;
+      check_position("traverse", status.traverse, {0.0}, settings_.limits);
+      return JobEvent::step_done;
+    case JobState::clearing:
+      return done_if(parts_.commands.poll_done(status, now));
+    case JobState::settling:
+      return done_if(now - step_begin_ >= settings_.plan.settle_duration);
+    case JobState::lighting:
+      return done_if(now - step_begin_ >= settings_.plan.lamp_warm_up);
+    case JobState::focusing:
+      return done_if(focus_.poll(status, now));
+    case JobState::capturing:
+      if (!is_ready(capture_)) return std::nullopt;
+      in_hand_ = std::make_shared<JudgedFrame>(capture_.get());
+      return JobEvent::step_done;
+    case JobState::assessing:
+      return is_ready(assessment_) ? judge() : std::nullopt;
+    case JobState::storing:
+      return is_ready(stored_) ? layer_stored() : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+void LayerCycle::begin_capture(const bridge::StageStatus& status) {
+  ++attempt_;
+  ++climbed_;
+  capture_ = parts_.keeper.ask(
+      [camera = &parts_.camera, layer = layer_, attempt = attempt_, status,
+       time_out = settings_.camera.capture_time_out](const SampleRecords& records) {
+        JudgedFrame taken;
+        taken.layer = layer;
+        taken.attempt = attempt;
+        taken.column = status.column;
+        taken.telemetry = status;
+        taken.frame = capture(*camera, time_out);
+        taken.taken_at = records.now();
+        return taken;
+      });
+}
+
+void LayerCycle::begin_assessment() {
+  expectation_.focus_sharpness = focus_memory_.peak_sharpness();
+  assessment_ = run_on(parts_.worker, [frame = in_hand_, expectation = expectation_,
+                                       thresholds = settings_.thresholds] {
+    return assess(frame->frame, expectation, thresholds);
+  });
+}
+
+std::optional<JobEvent> LayerCycle::judge() {
+  in_hand_->assessment = assessment_.get();
+  expectation_.previous_sequence = in_hand_->frame.sequence;
+  if (in_hand_->assessment.verdict == Verdict::accepted) return JobEvent::frame_accepted;
+
+  log_warning("quality", "layer " + std::to_string(layer_) + ", attempt " +
+                             std::to_string(attempt_) + ": " + in_hand_->assessment.reason);
+  const std::optional<JobEvent> next = after_rejection(climbed_, settings_.ladder);
+  const bool right_size = in_hand_->assessment.slug != "wrong-size";
+  if (right_size &&
+      (!best_rejected_ || in_hand_->assessment.sharpness > best_rejected_->assessment.sharpness)) {
+    std::swap(best_rejected_, in_hand_);
+  }
+  // Of two rejected frames the worse is let go, with its record; the better may still be accepted.
+  if (in_hand_) reject(*in_hand_);
+  in_hand_.reset();
+  if (next) {
+    focus_again_ = *next == JobEvent::focus_again || *next == JobEvent::clear_again;
+    return next;
+  }
+  if (settings_.ladder.exhausted == LadderSettings::Exhausted::accept && best_rejected_) {
+    in_hand_ = std::exchange(best_rejected_, nullptr);
+    in_hand_->assessment.verdict = Verdict::accepted_with_flag;
+    return JobEvent::frame_accepted;
+  }
+  if (best_rejected_) reject(*std::exchange(best_rejected_, nullptr));
+  return JobEvent::attempts_exhausted;
+}
+
+void LayerCycle::reject(const JudgedFrame& frame) {
+  parts_.keeper.post([frame](SampleRecords& records) { records.record_rejected(frame); });
+}
+
+void LayerCycle::begin_storing() {
+  if (best_rejected_) reject(*std::exchange(best_rejected_, nullptr));
+  stored_ = parts_.keeper.ask([frame = in_hand_](SampleRecords& records) {
+    const std::uint64_t bytes = records.commit_layer(*frame);
+    return Stored{bytes, records.disk_left_layers()};
+  });
+}
+
+std::optional<JobEvent> LayerCycle::layer_stored() {
+  const Stored stored = stored_.get();
+  disk_left_layers_ = stored.disk_left_layers;
+  focus_memory_.accepted(in_hand_->assessment.sharpness_ratio);
+  last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
+  in_hand_.reset();
+  parts_.feed.offer(layer_);
+  log_info("job", "layer " + std::to_string(layer_) + " of " +
+                      std::to_string(settings_.plan.layers) + " is stored, " +
+                      std::to_string(stored.bytes) + " bytes");
+  if (layer_ == settings_.plan.layers) return JobEvent::nothing_left;
+  if (disk_left_layers_ < settings_.limits.disk_reserve_layers) {
+    throw StepFailure("the disk has room for " + std::to_string(disk_left_layers_) +
+                      " more layers, less than disk_reserve_layers (" +
+                      std::to_string(settings_.limits.disk_reserve_layers) + "): make room");
+  }
+  ++layer_;
+  attempt_ = 0;
+  climbed_ = 0;
+  return JobEvent::layer_committed;
+}
+
+void LayerCycle::abandon(const std::string& why) {
+  const auto let_go = [why](JudgedFrame frame, SampleRecords& records) {
+    frame.assessment.verdict = Verdict::rejected;
+    frame.assessment.slug = "abandoned";
+    frame.assessment.reason = "the step was abandoned: " + why;
+    records.record_rejected(frame);
+  };
+  if (best_rejected_) reject(*std::exchange(best_rejected_, nullptr));
+  if (capture_.valid()) {
+    // The worker keeps the order of posting: by then the capture has ended, well or not.
+    auto capture = std::make_shared<std::future<JudgedFrame>>(std::move(capture_));
+    parts_.keeper.post([capture, let_go](SampleRecords& records) {
+      JudgedFrame frame;
+      try {
+        frame = capture->get();
+      } catch (const std::exception& error) {
+        log_warning("camera", std::string("the abandoned capture failed: ") + error.what());
+        return;
+      }
+      let_go(std::move(frame), records);
+    });
+  } else if (in_hand_ && !stored_.valid()) {
+    parts_.keeper.post(
+        [frame = *in_hand_, let_go](SampleRecords& records) { let_go(frame, records); });
+  }
+  in_hand_.reset();
+}
+
+std::string LayerCycle::waiting_for(JobState step) const {
+  switch (step) {
+    case JobState::grinding:
+      return grind_.waiting_for();
+    case JobState::retracting:
+      return "waits for the wheel to be retracted and the block parked";
+    case JobState::clearing:
+      return "waits for the air blast";
+    case JobState::settling:
+      return "waits for vibrations to settle";
+    case JobState::lighting:
+      return "waits for the lamp";
+    case JobState::focusing:
+      return focus_.waiting_for();
+    case JobState::capturing:
+      return "waits for a frame";
+    case JobState::assessing:
+      return "waits for the assessment";
+    case JobState::storing:
+      return "waits for the layer to be on disk and its record committed";
+    default:
+      return "";
+  }
+}
+
+}  // namespace biotomy::acquisition

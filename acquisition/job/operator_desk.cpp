@@ -1,0 +1,49 @@
+#include "acquisition/job/operator_desk.hpp"
+
+#include <array>
+#include <utility>
+
+namespace biotomy::acquisition {
+
+const char* to_string(OperatorCommand command) {
+  switch (command) {
+    case OperatorCommand::start:
+      return "start";
+    case OperatorCommand::pause:
+      return "pause";
+    case OperatorCommand::resume:
+      return "resume";
+    case OperatorCommand::abort:
+      return "abort";
+    case OperatorCommand::acknowledge:
+      return "acknowledge";
+    case OperatorCommand::shut_down:
+      return "shut_down";
+  }
+  return "?";
+}
+
+std::optional<OperatorCommand> operator_command(std::string_view name) {
+  constexpr std::array kPersonal = {OperatorCommand::start, OperatorCommand::pause,
+                                    OperatorCommand::resume, OperatorCommand::abort,
+                                    OperatorCommand::acknowledge};
+  for (const OperatorCommand command : kPersonal) {
+    if (name == to_string(command)) return command;
+  }
+  return std::nullopt;
+}
+
+std::future<OperatorReply> OperatorDesk::post(OperatorCommand command, std::string reason) {
+  Request request{command, std::move(reason), {}};
+  std::future<OperatorReply> reply = request.reply.get_future();
+  const std::scoped_lock lock(mutex_);
+  requests_.push_back(std::move(request));
+  return reply;
+}
+
+std::vector<OperatorDesk::Request> OperatorDesk::take() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(requests_, {});
+}
+
+}  // namespace biotomy::acquisition

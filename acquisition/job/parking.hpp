@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "acquisition/job/safety_limits.hpp"
+#include "acquisition/job/stage_commands.hpp"
+#include "acquisition/job/step_failure.hpp"
+#include "firmware_bridge/stage/stage.hpp"
+
+namespace biotomy::acquisition {
+
+/// Brings the rig to rest: stops what moves, waits until the controller is idle, retracts the wheel
+/// and parks the block.
+class Parking {
+ public:
+  Parking(StageCommands& commands, const SafetyLimits& limits);
+
+  enum class From {
+    rest,     ///< nothing is under way
+    motion,   ///< what is under way is stopped first
+    stopped,  ///< StageCommands::stop_now was just called
+  };
+
+  void begin(From from, TimePoint now);
+
+  /// True when the rig is parked. Throws StepFailure when it cannot be.
+  bool poll(const bridge::StageStatus& status, TimePoint now);
+
+  std::string waiting_for() const;
+
+ private:
+  enum class Phase { stop, stopping, wait_for_idle, retract, parked };
+
+  StageCommands& commands_;
+  SafetyLimits limits_;
+  Phase phase_ = Phase::parked;
+  TimePoint deadline_{};
+};
+
+/// Throws StepFailure when the axis is not where it should be.
+void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,
+                    const SafetyLimits& limits);
+
+}  // namespace biotomy::acquisition

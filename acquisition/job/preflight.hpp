@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "acquisition/job/job_settings.hpp"
+#include "acquisition/job/surroundings.hpp"
+#include "acquisition/records/sample_records.hpp"
+#include "firmware_bridge/camera/camera.hpp"
+#include "firmware_bridge/stage/stage.hpp"
+
+namespace biotomy::acquisition {
+
+/// What the worker found out of camera, sample and disk.
+struct PreflightFindings {
+  bridge::CameraDescription camera;
+  std::shared_ptr<SampleRecords> records;
+  JournalSummary journal;
+  std::int64_t disk_left_layers = 0;
+};
+
+/// Why this stage cannot do this job; nothing when it can.
+std::optional<std::string> stage_complaint(const JobSettings& settings,
+                                           const bridge::StageIdentity& stage);
+
+/// Asks the camera, then begins or opens the sample. To be called by the worker. Throws what they
+/// throw, and StepFailure when the disk is too full.
+PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
+                          const Surroundings& surroundings);
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "acquisition/job/job_states.hpp"
+
+namespace biotomy::acquisition {
+
+struct LadderSettings {
+  int max_attempts = 4;  ///< frames of one layer, before a person is asked
+  enum class Exhausted { pause, accept } exhausted = Exhausted::pause;
+};
+
+/// What to do after the `attempts`-th frame of a layer, from 1, was rejected: take it again, focus
+/// again, clear the face again. Nothing when no attempt is left.
+std::optional<JobEvent> after_rejection(int attempts, const LadderSettings& settings);
+
+}  // namespace biotomy::acquisition

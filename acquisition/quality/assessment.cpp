@@ -1,0 +1,130 @@
+#include "acquisition/quality/assessment.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "acquisition/quality/sharpness.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+/// The part of pixels in which at least one colour is at full scale.
+double clipped_fraction(const cv::Mat& image) {
+  std::array<cv::Mat, 3> colours;
+  cv::split(image, colours.data());
+  const double full = image.depth() == CV_16U ? 65535.0 : 255.0;
+  const cv::Mat clipped = (colours[0] >= full) | (colours[1] >= full) | (colours[2] >= full);
+  return static_cast<double>(cv::countNonZero(clipped)) / static_cast<double>(image.total());
+}
+
+std::string sentence(const char* format, double value, double limit) {
+  std::array<char, 200> text{};
+  // NOLINTNEXTLINE(clang-diagnostic-format-nonliteral): every caller's format is a literal
+  std::snprintf(text.data(), text.size(), format, value, limit);
+  return text.data();
+}
+
+/// Collects metrics; the first that fails gives the reason.
+class Judgement {
+ public:
+  void reject(const char* slug, const std::string& reason) {
+    if (!result_.slug.empty()) return;
+    result_.slug = slug;
+    result_.reason = reason;
+  }
+
+  void at_least(const char* name, double value, double limit, const char* slug,
+                const char* format) {
+    add(name, value, limit, value >= limit, slug, format);
+  }
+
+  void at_most(const char* name, double value, double limit, const char* slug, const char* format) {
+    add(name, value, limit, value <= limit, slug, format);
+  }
+
+  Assessment& result() { return result_; }
+
+  Assessment finish() {
+    if (result_.slug.empty()) {
+      result_.verdict = Verdict::accepted;
+      result_.slug = "good";
+      result_.reason = "every metric is within its limit";
+    } else {
+      result_.verdict = Verdict::rejected;
+    }
+    return result_;
+  }
+
+ private:
+  void add(const char* name, double value, double limit, bool passed, const char* slug,
+           const char* format) {
+    result_.metrics.push_back({name, value, limit, passed});
+    if (!passed) reject(slug, sentence(format, value, limit));
+  }
+
+  Assessment result_;
+};
+
+std::string description(int width, int height, int type) {
+  return std::to_string(width) + " × " + std::to_string(height) +
+         (type == CV_16UC3  ? " of 16 bits"
+          : type == CV_8UC3 ? " of 8 bits"
+                            : " of another kind");
+}
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::accepted:
+      return "accepted";
+    case Verdict::accepted_with_flag:
+      return "accepted_with_flag";
+    case Verdict::rejected:
+      return "rejected";
+    case Verdict::not_stored:
+      return "not_stored";
+  }
+  return "?";
+}
+
+Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectation,
+                  const QualityThresholds& thresholds) {
+  Judgement judgement;
+  const cv::Mat& image = frame.image;
+  if (image.cols != expectation.width || image.rows != expectation.height ||
+      image.type() != expectation.type) {
+    judgement.reject("wrong-size",
+                     "the frame is " + description(image.cols, image.rows, image.type()) +
+                         " and the sample " +
+                         description(expectation.width, expectation.height, expectation.type));
+    return judgement.finish();
+  }
+  if (expectation.previous_sequence && frame.sequence == *expectation.previous_sequence) {
+    judgement.reject("stale", "the camera gave frame " + std::to_string(frame.sequence) +
+                                  " again: it is of an earlier moment");
+  }
+
+  const cv::Mat brightness = brightness_of(image);
+  const double mean = cv::mean(brightness)[0];
+  judgement.at_least("brightness_minimum", mean, thresholds.minimum_brightness, "too-dark",
+                     "the mean brightness is %.3f of full scale, below %.3f");
+  judgement.at_most("brightness_maximum", mean, thresholds.maximum_brightness, "too-bright",
+                    "the mean brightness is %.3f of full scale, above %.3f");
+  judgement.at_most("clipped_fraction", clipped_fraction(image),
+                    thresholds.maximum_clipped_fraction, "clipped",
+                    "%.4f of the pixels are at full scale, more than %.4f");
+
+  Assessment& result = judgement.result();
+  result.sharpness = sharpness_of_brightness(brightness);
+  result.sharpness_ratio =
+      expectation.focus_sharpness > 0.0 ? result.sharpness / expectation.focus_sharpness : 0.0;
+  judgement.at_least("sharpness_ratio", result.sharpness_ratio, thresholds.minimum_sharpness_ratio,
+                     "blurred", "the sharpness is %.3f of the focus peak's, below %.3f");
+  return judgement.finish();
+}
+
+}  // namespace biotomy::acquisition

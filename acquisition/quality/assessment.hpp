@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_bridge/camera/frame.hpp"
+
+namespace biotomy::acquisition {
+
+enum class Verdict {
+  accepted,
+  accepted_with_flag,  ///< not good enough, kept because the configuration says so
+  rejected,
+  not_stored,  ///< good, but it could not be written
+};
+
+const char* to_string(Verdict verdict);
+
+/// A named property of a frame and whether it is as it should be.
+struct Metric {
+  std::string name;
+  double value = 0.0;
+  double limit = 0.0;  ///< the threshold that it was compared with
+  bool passed = true;
+};
+
+/// What was found out about one frame.
+struct Assessment {
+  Verdict verdict = Verdict::rejected;
+  std::string slug;    ///< the reason as part of a file name: "blurred"; "good" when accepted
+  std::string reason;  ///< the reason as a sentence
+  std::vector<Metric> metrics;
+  double sharpness = 0.0;
+  double sharpness_ratio = 0.0;  ///< to the focus peak it was compared with
+};
+
+/// Thresholds of the metrics, each under the metric's name.
+struct QualityThresholds {
+  double minimum_sharpness_ratio = 0.7;
+  double minimum_brightness = 0.05;        ///< mean, of full scale
+  double maximum_brightness = 0.95;        ///< mean, of full scale
+  double maximum_clipped_fraction = 0.05;  ///< of pixels with a colour at full scale
+};
+
+/// What a frame is compared with.
+struct FrameExpectation {
+  int width = 0;
+  int height = 0;
+  int type = 0;                  ///< CV_8UC3 or CV_16UC3
+  double focus_sharpness = 0.0;  ///< at the peak of this layer's sweep, or of the last one
+  std::optional<std::uint64_t> previous_sequence;  ///< of the frame before
+};
+
+/// Judges one frame. A frame that is of another size or kind than the sample's is rejected before
+/// anything is measured.
+Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectation,
+                  const QualityThresholds& thresholds);
+
+}  // namespace biotomy::acquisition

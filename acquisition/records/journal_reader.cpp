@@ -1,0 +1,93 @@
+#include "acquisition/records/journal_reader.hpp"
+
+#include <string>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <nlohmann/json.hpp>
+
+#include "acquisition/records/journal_error.hpp"
+#include "acquisition/records/journal_schema.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr int kBusyTimeoutMs = 2000;
+
+std::vector<Metric> metrics_of(const std::string& text) {
+  std::vector<Metric> metrics;
+  for (const nlohmann::json& entry : nlohmann::json::parse(text)) {
+    metrics.push_back({entry.at("name").get<std::string>(), entry.at("value").get<double>(),
+                       entry.at("limit").get<double>(), entry.at("passed").get<bool>()});
+  }
+  return metrics;
+}
+
+template <typename Work>
+auto with_journal(const std::filesystem::path& path, Work work) {
+  try {
+    return work();
+  } catch (const SQLite::Exception& error) {
+    throw JournalError("the journal " + path.string() + ": " + error.what());
+  } catch (const nlohmann::json::exception& error) {
+    throw JournalError("the journal " + path.string() +
+                       " holds metrics that are not JSON: " + error.what());
+  }
+}
+
+}  // namespace
+
+struct JournalReader::State {
+  std::filesystem::path path;
+  SQLite::Database database;
+
+  explicit State(const std::filesystem::path& journal_path)
+      : path(journal_path), database(journal_path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs) {
+    check_journal_version(database);
+  }
+};
+
+JournalReader::JournalReader(const std::filesystem::path& path)
+    : state_(with_journal(path, [&] { return std::make_unique<State>(path); })) {}
+
+JournalReader::~JournalReader() = default;
+
+std::vector<LayerRow> JournalReader::committed_layers(std::int64_t from, std::int64_t limit) const {
+  return with_journal(state_->path, [&] {
+    SQLite::Statement select(
+        state_->database,
+        "SELECT layers.layer, attempt, verdict, file, bytes, sha256, committed_at, reason, metrics "
+        "FROM layers JOIN attempts ON attempts.id = layers.attempt_id "
+        "WHERE layers.layer >= ? ORDER BY layers.layer LIMIT ?");
+    select.bind(1, from);
+    select.bind(2, limit);
+    std::vector<LayerRow> rows;
+    while (select.executeStep()) {
+      rows.push_back(
+          {.layer = select.getColumn(0).getInt64(),
+           .attempt = select.getColumn(1).getInt(),
+           .flagged = select.getColumn(2).getString() == to_string(Verdict::accepted_with_flag),
+           .file = select.getColumn(3).getString(),
+           .bytes = static_cast<std::uint64_t>(select.getColumn(4).getInt64()),
+           .sha256 = select.getColumn(5).getString(),
+           .committed_at = select.getColumn(6).getString(),
+           .reason = select.getColumn(7).getString(),
+           .metrics = metrics_of(select.getColumn(8).getString())});
+    }
+    return rows;
+  });
+}
+
+std::int64_t JournalReader::committed_count() const {
+  return with_journal(state_->path, [&] {
+    return state_->database.execAndGet("SELECT count(*) FROM layers").getInt64();
+  });
+}
+
+std::uint32_t JournalReader::last_sequence() const {
+  return with_journal(state_->path, [&] {
+    return static_cast<std::uint32_t>(
+        state_->database.execAndGet("SELECT coalesce(max(sequence), 0) FROM grinds").getInt64());
+  });
+}
+
+}  // namespace biotomy::acquisition

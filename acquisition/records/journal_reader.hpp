@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "acquisition/records/journal_rows.hpp"
+
+namespace biotomy::acquisition {
+
+/// The reading side of a journal, while it may still be written. One thread owns it. Every call
+/// throws JournalError.
+class JournalReader {
+ public:
+  explicit JournalReader(const std::filesystem::path& path);
+  ~JournalReader();
+  JournalReader(const JournalReader&) = delete;
+  JournalReader& operator=(const JournalReader&) = delete;
+
+  /// Committed layers in growing order, at most `limit`, the first not before `from`.
+  std::vector<LayerRow> committed_layers(std::int64_t from, std::int64_t limit) const;
+
+  std::int64_t committed_count() const;
+
+  /// The highest number of a command in it; 0 if none.
+  std::uint32_t last_sequence() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace biotomy::acquisition

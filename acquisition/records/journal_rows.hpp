@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acquisition/quality/assessment.hpp"
+#include "firmware_bridge/micrometres.hpp"
+#include "firmware_bridge/stage/stage.hpp"
+
+namespace biotomy::acquisition {
+
+/// One pass of the wheel. It is written down before the command is issued.
+struct GrindRow {
+  std::uint32_t sequence = 0;
+  std::int64_t layer = 0;
+  bridge::Micrometres target{};
+  bridge::Micrometres ground_before{};  ///< the controller's `ground_position` before
+  std::int64_t count_before = 0;        ///< the controller's `grind_count` before
+  bool finished = false;
+};
+
+/// One frame that was taken and judged.
+struct AttemptRow {
+  std::int64_t layer = 0;
+  int attempt = 0;  ///< from 1 within the layer
+  std::string taken_at;
+  std::uint64_t frame_sequence = 0;
+  std::int64_t exposure_us = 0;
+  double gain = 0.0;
+  bridge::Micrometres column{};
+  Assessment assessment;
+  std::string file;    ///< relative to the sample folder; empty if none was kept
+  std::string sha256;  ///< of the file
+  bridge::StageStatus telemetry;
+};
+
+/// One search for the focus.
+struct FocusRow {
+  std::int64_t layer = 0;
+  std::string why;
+  bridge::Micrometres column{};  ///< the best position
+  double sharpness = 0.0;        ///< there
+  bool found = false;
+  struct Point {
+    bridge::Micrometres column{};
+    double sharpness = 0.0;
+  };
+  std::vector<Point> points;
+};
+
+/// A layer whose image is on disk and whose record is committed.
+struct LayerRow {
+  std::int64_t layer = 0;
+  int attempt = 0;
+  bool flagged = false;  ///< accepted although the quality was not good enough
+  std::string file;      ///< relative to the sample folder
+  std::uint64_t bytes = 0;
+  std::string sha256;
+  std::string committed_at;
+  std::string reason;  ///< of the verdict
+  std::vector<Metric> metrics;
+};
+
+/// What the job must know of its own past.
+struct JournalSummary {
+  std::int64_t last_committed = 0;  ///< layers 1 to this one are committed
+  int last_attempt = 0;             ///< of the first layer that is not
+  std::uint32_t last_sequence = 0;
+  std::uint64_t last_layer_bytes = 0;
+  std::optional<GrindRow> last_grind;
+  std::optional<FocusRow> last_focus;  ///< the last that was found; without its points
+};
+
+}  // namespace biotomy::acquisition

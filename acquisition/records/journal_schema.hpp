@@ -1,0 +1,19 @@
+#pragma once
+
+namespace SQLite {
+class Database;
+}
+
+namespace biotomy::acquisition {
+
+/// The version that this program writes, kept in the journal's `PRAGMA user_version`.
+int journal_version();
+
+/// Brings an opened journal to `journal_version()`, step by step, each step in a transaction of its
+/// own. Throws JournalError for a journal of a newer program.
+void migrate_journal(SQLite::Database& database);
+
+/// Throws JournalError unless the journal has exactly this program's version.
+void check_journal_version(SQLite::Database& database);
+
+}  // namespace biotomy::acquisition

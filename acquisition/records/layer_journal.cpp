@@ -1,0 +1,241 @@
+#include "acquisition/records/layer_journal.hpp"
+
+#include <algorithm>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <nlohmann/json.hpp>
+
+#include "acquisition/records/journal_error.hpp"
+#include "acquisition/records/journal_schema.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kBusyTimeoutMs = 5000;
+
+std::string telemetry_json(const bridge::StageStatus& status) {
+  return json{{"feed_um", status.feed.value},
+              {"traverse_um", status.traverse.value},
+              {"column_um", status.column.value},
+              {"ground_to_um", status.ground_to.value},
+              {"grind_count", status.grind_count},
+              {"spindle_rpm", status.spindle_rpm},
+              {"spindle_load_percent", status.spindle_load_percent},
+              {"vibration_mm_s", status.vibration_mm_s},
+              {"block_temperature_c", status.block_temperature_c},
+              {"chamber_temperature_c", status.chamber_temperature_c}}
+      .dump();
+}
+
+std::string metrics_json(const std::vector<Metric>& metrics) {
+  json list = json::array();
+  for (const Metric& metric : metrics) {
+    list.push_back({{"name", metric.name},
+                    {"value", metric.value},
+                    {"limit", metric.limit},
+                    {"passed", metric.passed}});
+  }
+  return list.dump();
+}
+
+std::string points_json(const std::vector<FocusRow::Point>& points) {
+  json list = json::array();
+  for (const FocusRow::Point& point : points) {
+    list.push_back({point.column.value, point.sharpness});
+  }
+  return list.dump();
+}
+
+/// Runs a piece of work on the database and names the journal in what goes wrong.
+template <typename Work>
+auto with_journal(const std::filesystem::path& path, Work work) {
+  try {
+    return work();
+  } catch (const SQLite::Exception& error) {
+    throw JournalError("the journal " + path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+struct LayerJournal::State {
+  std::filesystem::path path;
+  SQLite::Database database;
+
+  explicit State(const std::filesystem::path& journal_path)
+      : path(journal_path),
+        database(journal_path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                 kBusyTimeoutMs) {
+    database.exec("PRAGMA journal_mode = WAL");
+    database.exec("PRAGMA synchronous = FULL");
+    database.exec("PRAGMA foreign_keys = ON");
+    migrate_journal(database);
+  }
+
+  void insert_attempt(const AttemptRow& attempt) {
+    SQLite::Statement insert(
+        database,
+        "INSERT INTO attempts (layer, attempt, taken_at, frame_sequence, exposure_us, gain, "
+        "column_um, verdict, slug, reason, metrics, file, sha256, telemetry) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    insert.bind(1, attempt.layer);
+    insert.bind(2, attempt.attempt);
+    insert.bind(3, attempt.taken_at);
+    insert.bind(4, static_cast<std::int64_t>(attempt.frame_sequence));
+    insert.bind(5, attempt.exposure_us);
+    insert.bind(6, attempt.gain);
+    insert.bind(7, attempt.column.value);
+    insert.bind(8, to_string(attempt.assessment.verdict));
+    insert.bind(9, attempt.assessment.slug);
+    insert.bind(10, attempt.assessment.reason);
+    insert.bind(11, metrics_json(attempt.assessment.metrics));
+    insert.bind(12, attempt.file);
+    insert.bind(13, attempt.sha256);
+    insert.bind(14, telemetry_json(attempt.telemetry));
+    insert.exec();
+  }
+};
+
+LayerJournal::LayerJournal(const std::filesystem::path& path)
+    : state_(with_journal(path, [&] { return std::make_unique<State>(path); })) {}
+
+LayerJournal::~LayerJournal() = default;
+
+void LayerJournal::begin_grind(const GrindRow& grind, const std::string& at) {
+  with_journal(state_->path, [&] {
+    SQLite::Statement insert(state_->database,
+                             "INSERT INTO grinds (sequence, layer, target_um, ground_before_um, "
+                             "count_before, intended_at) VALUES (?, ?, ?, ?, ?, ?)");
+    insert.bind(1, static_cast<std::int64_t>(grind.sequence));
+    insert.bind(2, grind.layer);
+    insert.bind(3, grind.target.value);
+    insert.bind(4, grind.ground_before.value);
+    insert.bind(5, grind.count_before);
+    insert.bind(6, at);
+    insert.exec();
+  });
+}
+
+void LayerJournal::end_grind(std::uint32_t sequence, bridge::CommandResult result,
+                             const bridge::StageStatus& telemetry, const std::string& at) {
+  with_journal(state_->path, [&] {
+    SQLite::Statement update(
+        state_->database,
+        "UPDATE grinds SET finished_at = ?, result = ?, telemetry = ? WHERE sequence = ?");
+    update.bind(1, at);
+    update.bind(2, bridge::to_string(result));
+    update.bind(3, telemetry_json(telemetry));
+    update.bind(4, static_cast<std::int64_t>(sequence));
+    update.exec();
+  });
+}
+
+void LayerJournal::record_attempt(const AttemptRow& attempt) {
+  with_journal(state_->path, [&] { state_->insert_attempt(attempt); });
+}
+
+void LayerJournal::record_focus(const FocusRow& focus, const std::string& at) {
+  with_journal(state_->path, [&] {
+    SQLite::Statement insert(state_->database,
+                             "INSERT INTO focus_sweeps (at, layer, why, found, column_um, "
+                             "sharpness, points) VALUES (?, ?, ?, ?, ?, ?, ?)");
+    insert.bind(1, at);
+    insert.bind(2, focus.layer);
+    insert.bind(3, focus.why);
+    insert.bind(4, focus.found ? 1 : 0);
+    insert.bind(5, focus.column.value);
+    insert.bind(6, focus.sharpness);
+    insert.bind(7, points_json(focus.points));
+    insert.exec();
+  });
+}
+
+void LayerJournal::record_event(const char* kind, const std::string& state, std::int64_t layer,
+                                const std::string& text, const std::string& at) {
+  with_journal(state_->path, [&] {
+    SQLite::Statement insert(
+        state_->database,
+        "INSERT INTO events (at, kind, state, layer, text) VALUES (?, ?, ?, ?, ?)");
+    insert.bind(1, at);
+    insert.bind(2, kind);
+    insert.bind(3, state);
+    insert.bind(4, layer);
+    insert.bind(5, text);
+    insert.exec();
+  });
+}
+
+void LayerJournal::commit_layer(const AttemptRow& attempt, std::uint64_t bytes,
+                                const std::string& at) {
+  with_journal(state_->path, [&] {
+    SQLite::Transaction transaction(state_->database);
+    state_->insert_attempt(attempt);
+    SQLite::Statement insert(state_->database,
+                             "INSERT INTO layers (layer, attempt_id, bytes, committed_at) "
+                             "SELECT ?, id, ?, ? FROM attempts WHERE layer = ? AND attempt = ?");
+    insert.bind(1, attempt.layer);
+    insert.bind(2, static_cast<std::int64_t>(bytes));
+    insert.bind(3, at);
+    insert.bind(4, attempt.layer);
+    insert.bind(5, attempt.attempt);
+    insert.exec();
+    transaction.commit();
+  });
+}
+
+JournalSummary LayerJournal::summary() const {
+  return with_journal(state_->path, [&] {
+    JournalSummary summary;
+    SQLite::Statement last(state_->database,
+                           "SELECT count(*), coalesce(max(layer), 0) FROM layers");
+    last.executeStep();
+    summary.last_committed = last.getColumn(1).getInt64();
+    if (last.getColumn(0).getInt64() != summary.last_committed) {
+      throw JournalError("the journal " + state_->path.string() +
+                         " has committed layers with gaps between them: it is damaged");
+    }
+
+    SQLite::Statement attempt(state_->database,
+                              "SELECT coalesce(max(attempt), 0) FROM attempts WHERE layer = ?");
+    attempt.bind(1, summary.last_committed + 1);
+    attempt.executeStep();
+    summary.last_attempt = attempt.getColumn(0).getInt();
+
+    SQLite::Statement bytes(state_->database, "SELECT bytes FROM layers WHERE layer = ?");
+    bytes.bind(1, summary.last_committed);
+    if (bytes.executeStep()) {
+      summary.last_layer_bytes = static_cast<std::uint64_t>(bytes.getColumn(0).getInt64());
+    }
+
+    SQLite::Statement grind(state_->database,
+                            "SELECT sequence, layer, target_um, ground_before_um, count_before, "
+                            "coalesce(result, '') FROM grinds ORDER BY sequence DESC LIMIT 1");
+    if (grind.executeStep()) {
+      summary.last_sequence = static_cast<std::uint32_t>(grind.getColumn(0).getInt64());
+      summary.last_grind = GrindRow{.sequence = summary.last_sequence,
+                                    .layer = grind.getColumn(1).getInt64(),
+                                    .target = {grind.getColumn(2).getDouble()},
+                                    .ground_before = {grind.getColumn(3).getDouble()},
+                                    .count_before = grind.getColumn(4).getInt64(),
+                                    .finished = grind.getColumn(5).getString() ==
+                                                bridge::to_string(bridge::CommandResult::done)};
+    }
+
+    SQLite::Statement focus(state_->database,
+                            "SELECT layer, why, column_um, sharpness FROM focus_sweeps "
+                            "WHERE found = 1 ORDER BY id DESC LIMIT 1");
+    if (focus.executeStep()) {
+      summary.last_focus = FocusRow{.layer = focus.getColumn(0).getInt64(),
+                                    .why = focus.getColumn(1).getString(),
+                                    .column = {focus.getColumn(2).getDouble()},
+                                    .sharpness = focus.getColumn(3).getDouble(),
+                                    .found = true,
+                                    .points = {}};
+    }
+    return summary;
+  });
+}
+
+}  // namespace biotomy::acquisition

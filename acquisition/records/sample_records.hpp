@@ -1,0 +1,76 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "acquisition/job/job_plan.hpp"
+#include "acquisition/job/surroundings.hpp"
+#include "acquisition/records/journal_rows.hpp"
+#include "acquisition/records/layer_journal.hpp"
+#include "acquisition/records/rejected_frames.hpp"
+#include "firmware_bridge/camera/camera.hpp"
+#include "firmware_bridge/camera/frame.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
+
+namespace biotomy::acquisition {
+
+/// A frame that was judged, with what belongs into its record.
+struct JudgedFrame {
+  bridge::Frame frame;
+  Assessment assessment;
+  std::int64_t layer = 0;
+  int attempt = 0;
+  std::string taken_at;
+  bridge::Micrometres column{};
+  bridge::StageStatus telemetry;
+};
+
+/// All that is written of a sample but the volume: layer images, rejected frames, the journal.
+/// The worker's thread owns it.
+class SampleRecords {
+ public:
+  /// Begins the sample, or opens it when it is there: then it must be of the same size, spacing and
+  /// depth, and every committed layer's file must be there with the recorded size.
+  /// Throws SampleError and JournalError.
+  SampleRecords(const JobPlan& plan, const StorePlan& store,
+                const bridge::CameraDescription& camera, Surroundings surroundings);
+
+  const reconstruct::SampleFolder& sample() const { return sample_; }
+  JournalSummary summary() const { return journal_.summary(); }
+
+  void begin_grind(const GrindRow& grind);
+  void end_grind(std::uint32_t sequence, bridge::CommandResult result,
+                 const bridge::StageStatus& telemetry);
+  void record_focus(const FocusRow& focus);
+  void record_event(const char* kind, const std::string& state, std::int64_t layer,
+                    const std::string& text);
+
+  /// Keeps a small picture and the record of a frame that is not the layer.
+  void record_rejected(const JudgedFrame& frame);
+
+  /// Stores the layer durably, then commits its record. Gives the bytes of the file. When the image
+  /// could not be stored, the frame is recorded as `not_stored` and the error goes on.
+  std::uint64_t commit_layer(const JudgedFrame& frame);
+
+  /// The time as records have it: ISO 8601, UTC.
+  std::string now() const;
+
+  /// How many more layers fit onto the disk, each counted with its part of the volume.
+  std::int64_t disk_left_layers() const;
+
+ private:
+  AttemptRow row_of(const JudgedFrame& frame) const;
+  void check_committed_files() const;
+
+  reconstruct::SampleFolder sample_;
+  StorePlan store_;
+  Surroundings surroundings_;
+  LayerJournal journal_;
+  RejectedFrames rejected_;
+  std::uint64_t bytes_per_layer_;
+};
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,151 @@
+#include "acquisition/service/api.hpp"
+
+#include <charconv>
+#include <future>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "acquisition/log.hpp"
+#include "acquisition/records/journal_reader.hpp"
+#include "acquisition/service/access.hpp"
+#include "acquisition/service/status_json.hpp"
+#include "acquisition/service/status_page.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr std::int64_t kDefaultLimit = 100;
+constexpr std::int64_t kLargestLimit = 1000;
+constexpr std::int64_t kLargestLayer = 999999;
+constexpr std::size_t kLongestReason = 500;
+constexpr std::string_view kControl = "/api/v1/control/";
+
+ApiResponse json_response(std::string body) {
+  return {
+      .status = 200, .content_type = "application/json", .body = std::move(body), .headers = {}};
+}
+
+/// The number under `name`; nothing when it is not a whole number in the range.
+std::optional<std::int64_t> number(const ApiRequest& request, const std::string& name,
+                                   std::int64_t fallback, std::int64_t minimum,
+                                   std::int64_t maximum) {
+  const auto found = request.query.find(name);
+  if (found == request.query.end()) return fallback;
+  const std::string& text = found->second;
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (value < minimum || value > maximum) return std::nullopt;
+  return value;
+}
+
+/// The operator's words in a body {"reason": "…"}; an empty body has none. Nothing when the body is
+/// something else.
+std::optional<std::string> reason_of(const std::string& body) {
+  if (body.empty()) return "";
+  const nlohmann::json document = nlohmann::json::parse(body, nullptr, false);
+  if (!document.is_object()) return std::nullopt;
+  if (document.empty()) return "";
+  if (document.size() != 1 || !document.contains("reason")) return std::nullopt;
+  if (!document["reason"].is_string()) return std::nullopt;
+  return document["reason"].get<std::string>().substr(0, kLongestReason);
+}
+
+ApiResponse wrong_method(const ApiRequest& request, const char* allowed) {
+  ApiResponse response =
+      error_response(405, request.path + " takes " + allowed + ", not " + request.method);
+  response.headers["Allow"] = allowed;
+  return response;
+}
+
+}  // namespace
+
+Api::Api(const StatusBoard& board, OperatorDesk& desk, std::filesystem::path journal,
+         std::string token, std::chrono::milliseconds reply_time_out)
+    : board_(board),
+      desk_(desk),
+      journal_(std::move(journal)),
+      token_(std::move(token)),
+      reply_time_out_(reply_time_out) {}
+
+ApiResponse Api::answer(const ApiRequest& request) const {
+  try {
+    if (request.path.starts_with(kControl)) {
+      return control(request.path.substr(kControl.size()), request);
+    }
+    const bool known = request.path == "/" || request.path == "/healthz" ||
+                       request.path == "/api/v1/status" || request.path == "/api/v1/layers";
+    if (!known) return error_response(404, "there is no " + request.path);
+    if (request.method != "GET") return wrong_method(request, "GET");
+
+    if (request.path == "/healthz") return json_response(R"({"status":"ok"})");
+    if (request.path == "/api/v1/status") return json_response(status_json(*board_.look()));
+    if (request.path == "/api/v1/layers") return layers(request);
+    ApiResponse page{.status = 200,
+                     .content_type = "text/html; charset=utf-8",
+                     .body = status_page(*board_.look()),
+                     .headers = {}};
+    page.headers["Content-Security-Policy"] = "default-src 'none'; style-src 'unsafe-inline'";
+    return page;
+  } catch (const std::exception& error) {
+    log_error("http", request.path + ": " + error.what());
+    return error_response(500, error.what());
+  }
+}
+
+ApiResponse Api::layers(const ApiRequest& request) const {
+  const auto from = number(request, "from", 1, 1, kLargestLayer);
+  if (!from) return error_response(400, "from must be a layer number, 1 to 999999");
+  const auto limit = number(request, "limit", kDefaultLimit, 1, kLargestLimit);
+  if (!limit) return error_response(400, "limit must be a number from 1 to 1000");
+  if (!std::filesystem::exists(journal_)) return json_response(layers_json({}, 0));
+  const JournalReader reader(journal_);
+  return json_response(
+      layers_json(reader.committed_layers(*from, *limit), reader.committed_count()));
+}
+
+ApiResponse Api::control(const std::string& name, const ApiRequest& request) const {
+  const std::optional<OperatorCommand> command = operator_command(name);
+  if (!command) {
+    return error_response(404, "there is no command \"" + name +
+                                   "\": it is start, pause, resume, abort or acknowledge");
+  }
+  if (request.method != "POST") return wrong_method(request, "POST");
+  switch (check_access(request.authorization, token_)) {
+    case Access::no_token: {
+      ApiResponse response =
+          error_response(401, "commands need the header Authorization: Bearer <token>");
+      response.headers["WWW-Authenticate"] = "Bearer";
+      return response;
+    }
+    case Access::wrong_token:
+      return error_response(403, "this is not the token of this rig");
+    case Access::granted:
+      break;
+  }
+  const std::optional<std::string> reason = reason_of(request.body);
+  if (!reason) {
+    return error_response(400, R"(the body must be empty or {"reason": "a few words"})");
+  }
+  std::future<OperatorReply> reply = desk_.post(*command, *reason);
+  if (reply.wait_for(reply_time_out_) != std::future_status::ready) {
+    return error_response(503,
+                          "the rig's control did not answer in time; look at the status "
+                          "before asking again");
+  }
+  const OperatorReply answer = reply.get();
+  if (!answer.accepted) return error_response(409, answer.sentence);
+  return json_response(reply_json(answer.sentence));
+}
+
+ApiResponse error_response(int status, const std::string& message) {
+  return {.status = status,
+          .content_type = "application/json",
+          .body = error_json(status, message),
+          .headers = {}};
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "acquisition/job/job_status.hpp"
+#include "acquisition/job/operator_desk.hpp"
+
+namespace biotomy::acquisition {
+
+struct ApiRequest {
+  std::string method;  ///< "GET", "POST", …; HEAD is asked as GET
+  std::string path;    ///< without the query
+  std::map<std::string, std::string> query;
+  std::string authorization;  ///< value of the header; empty if there is none
+  std::string body;
+};
+
+struct ApiResponse {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body;
+  std::map<std::string, std::string> headers;
+};
+
+/// What the daemon answers over HTTP, without a word of HTTP's own. It never touches a device: it
+/// looks at the status board and at the journal, and lays commands on the operator's desk. Safe for
+/// many threads.
+class Api {
+ public:
+  /// `journal` is where the sample's journal is or will be. Board and desk outlive the API.
+  Api(const StatusBoard& board, OperatorDesk& desk, std::filesystem::path journal,
+      std::string token, std::chrono::milliseconds reply_time_out = std::chrono::seconds(5));
+
+  /// Never throws: what goes wrong is a response with {"error": {"code", "message"}}.
+  ApiResponse answer(const ApiRequest& request) const;
+
+ private:
+  ApiResponse layers(const ApiRequest& request) const;
+  ApiResponse control(const std::string& name, const ApiRequest& request) const;
+
+  const StatusBoard& board_;
+  OperatorDesk& desk_;
+  std::filesystem::path journal_;
+  std::string token_;
+  std::chrono::milliseconds reply_time_out_;
+};
+
+ApiResponse error_response(int status, const std::string& message);
+
+}  // namespace biotomy::acquisition

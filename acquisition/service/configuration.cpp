@@ -1,0 +1,456 @@
+#include "acquisition/service/configuration.hpp"
+
+#include "firmware_bridge/wire/checked_table.hpp"
+#include "firmware_bridge/wire/endpoint.hpp"
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+using bridge::CheckedTable;
+using bridge::FlagKey;
+using bridge::IntegerKey;
+using bridge::Micrometres;
+using bridge::NumberKey;
+using bridge::TextKey;
+using std::chrono::milliseconds;
+
+constexpr double kMetre = 1e6;  // in micrometres
+
+/// A duration in the file is an integer of milliseconds; its fallback is the struct's own default.
+milliseconds duration(const CheckedTable& table, const char* name, milliseconds fallback,
+                      const char* description, int minimum = 1, int maximum = 86400000) {
+  return milliseconds(table.get(IntegerKey{.name = name,
+                                           .fallback = fallback.count(),
+                                           .unit = "ms",
+                                           .minimum = minimum,
+                                           .maximum = maximum,
+                                           .description = description}));
+}
+
+Micrometres position(const CheckedTable& table, const char* name,
+                     std::optional<Micrometres> fallback, const char* description) {
+  return {table.get(NumberKey{.name = name,
+                              .fallback = fallback ? std::optional(fallback->value) : std::nullopt,
+                              .unit = "µm",
+                              .minimum = -kMetre,
+                              .maximum = kMetre,
+                              .description = description})};
+}
+
+Micrometres length(const CheckedTable& table, const char* name, std::optional<Micrometres> fallback,
+                   const char* description, double minimum = 0.001) {
+  return {table.get(NumberKey{.name = name,
+                              .fallback = fallback ? std::optional(fallback->value) : std::nullopt,
+                              .unit = "µm",
+                              .minimum = minimum,
+                              .maximum = kMetre,
+                              .description = description})};
+}
+
+int count(const CheckedTable& table, const char* name, int fallback, int minimum, int maximum,
+          const char* description) {
+  return static_cast<int>(table.get(IntegerKey{.name = name,
+                                               .fallback = fallback,
+                                               .minimum = minimum,
+                                               .maximum = maximum,
+                                               .description = description}));
+}
+
+double number(const CheckedTable& table, const char* name, double fallback, const char* unit,
+              double minimum, double maximum, const char* description) {
+  return table.get(NumberKey{.name = name,
+                             .fallback = fallback,
+                             .unit = unit,
+                             .minimum = minimum,
+                             .maximum = maximum,
+                             .description = description});
+}
+
+std::string optional_text(const CheckedTable& table, const char* name, const char* description,
+                          const std::string& fallback = "") {
+  return table.get(TextKey{.name = name,
+                           .fallback = fallback,
+                           .choices = {},
+                           .may_be_empty = true,
+                           .description = description});
+}
+
+StageConfiguration read_stage(const CheckedTable& table) {
+  StageConfiguration stage;
+  stage.endpoint =
+      table.get(TextKey{.name = "endpoint", .description = "the controller: \"tcp://host:port\""});
+  stage.register_map = table.resolve(table.get(TextKey{
+      .name = "register_map",
+      .fallback = "register_map.toml",
+      .description = "the file that says where the controller keeps what; see register-map.md"}));
+  stage.response_timeout =
+      duration(table, "response_timeout_ms", stage.response_timeout,
+               "a controller that has not answered after so long did not answer", 10, 10000);
+  return stage;
+}
+
+bridge::GpioLineSettings read_line(const CheckedTable& table, bool required) {
+  using enum bridge::LineBias;
+  bridge::GpioLineSettings line;
+  line.chip = optional_text(table, "chip", "the GPIO chip: \"gpiochip0\" or its label");
+  line.line = optional_text(table, "line", "the line's name, or its offset as a text");
+  line.active_low = table.get(FlagKey{.name = "active_low",
+                                      .fallback = line.active_low,
+                                      .description = "a low voltage means on (pressed, open)"});
+  const std::string bias =
+      table.get(TextKey{.name = "bias",
+                        .fallback = "as-is",
+                        .choices = {"as-is", "disabled", "pull-up", "pull-down"},
+                        .description = "the line's resistor"});
+  line.bias = bias == "pull-up"     ? pull_up
+              : bias == "pull-down" ? pull_down
+              : bias == "disabled"  ? disabled
+                                    : as_is;
+  if (required && line.chip.empty()) table.reject("chip", "missing; the gpiod backend needs it");
+  if (required && line.line.empty()) table.reject("line", "missing; the gpiod backend needs it");
+  return line;
+}
+
+std::optional<bridge::GpioLineSettings> read_optional_line(const CheckedTable& table) {
+  bridge::GpioLineSettings line = read_line(table, table.has("chip") || table.has("line"));
+  return line.chip.empty() ? std::nullopt : std::optional(line);
+}
+
+/// The socket's path of a "unix://" endpoint, which the socket backend needs.
+std::string read_socket_endpoint(const CheckedTable& table, bool required) {
+  const std::string text = optional_text(
+      table, "endpoint", "of the socket backend: \"unix://path\" of the rig's socket");
+  if (text.empty()) {
+    if (required) table.reject("endpoint", "missing; the socket backend needs \"unix://path\"");
+    return text;
+  }
+  try {
+    const bridge::Endpoint endpoint = bridge::parse_endpoint(text);
+    if (endpoint.scheme != bridge::Endpoint::Scheme::unix_socket) {
+      table.reject("endpoint", "\"" + text + "\" is not possible; expected \"unix://path\"");
+    }
+    return table.resolve(endpoint.path).string();
+  } catch (const bridge::ConfigurationError& error) {
+    table.reject("endpoint", error.what());
+  }
+}
+
+LinesConfiguration read_lines(const CheckedTable& table) {
+  LinesConfiguration lines;
+  const bool gpiod =
+      table.get(TextKey{.name = "backend",
+                        .fallback = "socket",
+                        .choices = {"socket", "gpiod"},
+                        .description = "where e-stop, door and lamp are wired: to another "
+                                       "process or to GPIO lines of this computer"}) == "gpiod";
+  lines.backend = gpiod ? LinesConfiguration::Backend::gpiod : LinesConfiguration::Backend::socket;
+  lines.endpoint = read_socket_endpoint(table, !gpiod);
+  lines.response_timeout = duration(table, "response_timeout_ms", lines.response_timeout,
+                                    "of the socket backend", 10, 10000);
+  lines.gpiod.estop = read_line(table.table("estop"), gpiod);
+  lines.gpiod.door = read_line(table.table("door"), gpiod);
+  lines.gpiod.lamp = read_line(table.table("lamp"), gpiod);
+  lines.gpiod.trigger = read_optional_line(table.table("trigger"));
+  lines.gpiod.tower_light = read_optional_line(table.table("tower_light"));
+  return lines;
+}
+
+CameraConfiguration read_camera(const CheckedTable& table, CameraPlan& plan) {
+  CameraConfiguration camera;
+  const bool libcamera =
+      table.get(TextKey{.name = "backend",
+                        .fallback = "socket",
+                        .choices = {"socket", "libcamera"},
+                        .description = "a camera of another process, or one that libcamera "
+                                       "knows"}) == "libcamera";
+  camera.backend =
+      libcamera ? CameraConfiguration::Backend::libcamera : CameraConfiguration::Backend::socket;
+  camera.endpoint = read_socket_endpoint(table, !libcamera);
+  camera.response_timeout =
+      duration(table, "response_timeout_ms", camera.response_timeout,
+               "of the socket backend, for everything but a frame", 10, 60000);
+  camera.libcamera.camera = optional_text(
+      table, "camera", "of the libcamera backend: id or model; empty is the first there is");
+  camera.libcamera.width = count(table, "width", 0, 0, 65535,
+                                 "of the libcamera backend: pixels; 0 is the largest offered");
+  camera.libcamera.height = count(table, "height", 0, 0, 65535, "likewise");
+  camera.libcamera.pixel_format = optional_text(
+      table, "pixel_format", "of the libcamera backend: \"BGR888\" …; empty is the best offered");
+
+  plan.settings.exposure = std::chrono::microseconds(
+      table.get(IntegerKey{.name = "exposure_us",
+                           .fallback = plan.settings.exposure.count(),
+                           .unit = "µs",
+                           .minimum = 1,
+                           .maximum = 60000000,
+                           .description = "how long a frame is exposed"}));
+  plan.settings.gain = number(table, "gain", plan.settings.gain, "", 0.01, 1000.0, "of the sensor");
+  plan.settings.red_gain = number(table, "red_gain", plan.settings.red_gain, "", 0.01, 100.0,
+                                  "white balance; green is 1");
+  plan.settings.blue_gain =
+      number(table, "blue_gain", plan.settings.blue_gain, "", 0.01, 100.0, "likewise");
+  plan.capture_time_out = duration(table, "capture_timeout_ms", plan.capture_time_out,
+                                   "a camera without a frame after so long does not answer");
+  return camera;
+}
+
+JobPlan read_job(const CheckedTable& table) {
+  JobPlan job;
+  job.sample = table.resolve(table.get(
+      TextKey{.name = "sample",
+              .description =
+                  "the sample folder; made when the job starts, gone on with when it is there"}));
+  if (!job.sample.has_filename()) job.sample = job.sample.parent_path();
+  job.name = optional_text(table, "name", "of the sample; empty is the folder's name");
+  if (job.name.empty()) job.name = job.sample.filename().string();
+  job.notes = optional_text(table, "notes", "whatever should be known of the sample");
+  job.layers = table.get(IntegerKey{.name = "layers",
+                                    .minimum = 1,
+                                    .maximum = 999999,
+                                    .description = "how many layers are ground"});
+  job.layer_thickness = length(table, "layer_thickness_um", std::nullopt, "of each layer");
+  const std::vector<double> pixel =
+      table.get(bridge::NumbersKey{.name = "pixel_um",
+                                   .unit = "µm",
+                                   .minimum = 0.001,
+                                   .maximum = kMetre,
+                                   .count = 2,
+                                   .description = "size of a camera pixel on the face, [x, y]"});
+  job.pixel_x = {pixel[0]};
+  job.pixel_y = {pixel[1]};
+  job.first_face =
+      position(table, "first_face_um", std::nullopt, "feed position to which layer 1 is ground");
+  const std::int64_t bits =
+      table.get(IntegerKey{.name = "bits",
+                           .fallback = job.bits,
+                           .minimum = 8,
+                           .maximum = 16,
+                           .description = "of one colour in a frame: 8 or 16"});
+  if (bits != 8 && bits != 16) table.reject("bits", "expected 8 or 16");
+  job.bits = static_cast<int>(bits);
+  job.spindle_rpm =
+      number(table, "spindle_rpm", job.spindle_rpm, "rpm", 1.0, 60000.0, "speed of the wheel");
+  job.clear_duration =
+      duration(table, "clear_ms", job.clear_duration, "air blast over the fresh face", 1, 65535);
+  job.settle_duration = duration(table, "settle_ms", job.settle_duration,
+                                 "waited for vibrations to settle", 0, 3600000);
+  job.lamp_warm_up = duration(table, "lamp_warm_up_ms", job.lamp_warm_up,
+                              "waited after the lamp is switched on", 0, 3600000);
+  return job;
+}
+
+FocusSettings read_focus(const CheckedTable& table) {
+  FocusSettings focus;
+  focus.start = position(table, "start_um", std::nullopt,
+                         "column position around which the first search begins");
+  focus.points = count(table, "points", focus.points, 3, 1000, "of a sweep");
+  focus.step = length(table, "step_um", focus.step, "between the points of a sweep");
+  focus.shifts = count(table, "shifts", focus.shifts, 0, 1000,
+                       "how often a sweep with its peak at the rim is repeated around that rim");
+  focus.backlash = length(table, "backlash_um", focus.backlash,
+                          "positions of a search are approached from below by so much", 0.0);
+  focus.every_layers = count(table, "every_layers", focus.every_layers, 1, 1000000,
+                             "a search at the latest after so many layers; between, the column "
+                             "follows the face");
+  focus.search_below_ratio =
+      number(table, "search_below_ratio", focus.search_below_ratio, "", 0.0, 10.0,
+             "a search also when an accepted frame's sharpness_ratio fell below this");
+  return focus;
+}
+
+void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
+                  LadderSettings& ladder) {
+  ladder.max_attempts = count(table, "max_attempts", ladder.max_attempts, 1, 100,
+                              "frames of a layer until a person is asked: take again, focus "
+                              "again, clear again");
+  const std::string policy = table.get(TextKey{
+      .name = "policy",
+      .fallback = "pause",
+      .choices = {"pause", "accept"},
+      .description = "when no attempt was good enough: pause the rig, or accept the sharpest with "
+                     "a flag"});
+  ladder.exhausted =
+      policy == "accept" ? LadderSettings::Exhausted::accept : LadderSettings::Exhausted::pause;
+  thresholds.minimum_sharpness_ratio =
+      number(table, "minimum_sharpness_ratio", thresholds.minimum_sharpness_ratio, "", 0.0, 10.0,
+             "sharpness of a frame relative to the last focus search's peak");
+  thresholds.minimum_brightness =
+      number(table, "minimum_brightness", thresholds.minimum_brightness, "", 0.0, 1.0,
+             "mean brightness, of full scale; below it the frame is black");
+  thresholds.maximum_brightness =
+      number(table, "maximum_brightness", thresholds.maximum_brightness, "", 0.0, 1.0,
+             "mean brightness, of full scale; above it the frame is white");
+  thresholds.maximum_clipped_fraction =
+      number(table, "maximum_clipped_fraction", thresholds.maximum_clipped_fraction, "", 0.0, 1.0,
+             "part of the pixels that may be at full scale in a colour");
+}
+
+StorePlan read_store(const CheckedTable& table) {
+  StorePlan store;
+  const std::string compression = table.get(TextKey{.name = "compression",
+                                                    .fallback = "zstd",
+                                                    .choices = {"zstd", "deflate"},
+                                                    .description = "of the layer images"});
+  store.layer_format.compression = compression == "deflate" ? reconstruct::LayerCompression::deflate
+                                                            : reconstruct::LayerCompression::zstd;
+  store.layer_format.level =
+      count(table, "level", store.layer_format.level, 1, 9, "of the compression");
+  store.volume_layout.codec =
+      optional_text(table, "codec", "of the volume's chunks", store.volume_layout.codec);
+  try {
+    reconstruct::check_layout(store.volume_layout);
+  } catch (const reconstruct::InvalidRequest& error) {
+    table.reject("codec", error.what());
+  }
+  store.rejected_frames = count(table, "rejected_frames", store.rejected_frames, 1, 1000000,
+                                "pictures of rejected frames that are kept; the oldest go");
+  store.rejected_width_px =
+      count(table, "rejected_width_px", store.rejected_width_px, 16, 10000, "their longer side");
+  return store;
+}
+
+SafetyLimits read_safety(const CheckedTable& table) {
+  SafetyLimits safety;
+  safety.link_lost = duration(table, "link_lost_ms", safety.link_lost,
+                              "without an answer of the controller for so long, the rig stops");
+  safety.controller_silent =
+      duration(table, "controller_silent_ms", safety.controller_silent,
+               "with the controller's heartbeat unchanged for so long, the rig stops");
+  safety.require_watchdog =
+      table.get(FlagKey{.name = "require_watchdog",
+                        .fallback = safety.require_watchdog,
+                        .description = "refuse a controller that does not watch the daemon"});
+  safety.position_tolerance = length(table, "position_tolerance_um", safety.position_tolerance,
+                                     "an axis further from where it should be stops the rig");
+  safety.block_temperature_minimum_c =
+      number(table, "block_temperature_minimum_c", safety.block_temperature_minimum_c, "°C",
+             -273.15, 200.0, "a colder block stops the rig");
+  safety.block_temperature_maximum_c =
+      number(table, "block_temperature_maximum_c", safety.block_temperature_maximum_c, "°C",
+             -273.15, 200.0, "a warmer block stops the rig");
+  if (safety.block_temperature_minimum_c >= safety.block_temperature_maximum_c) {
+    table.reject("block_temperature_minimum_c", "must be below block_temperature_maximum_c");
+  }
+  safety.temperature_delay = duration(table, "temperature_delay_ms", safety.temperature_delay,
+                                      "outside its window for so long", 0);
+  safety.disk_reserve_layers =
+      count(table, "disk_reserve_layers", safety.disk_reserve_layers, 1, 1000000,
+            "with room for fewer layers on the disk, the rig stops");
+  safety.command_start = duration(table, "command_start_ms", safety.command_start,
+                                  "within so long the controller starts a command");
+  safety.read_back =
+      duration(table, "read_back_ms", safety.read_back,
+               "so long the command number is read back before an unanswered command counts as "
+               "not received");
+  safety.command_issues = count(table, "command_issues", safety.command_issues, 1, 10,
+                                "a command is handed over so often at most");
+  safety.preflight_limit =
+      duration(table, "preflight_limit_ms", safety.preflight_limit, "limit of the step");
+  safety.recovery_limit =
+      duration(table, "recovery_limit_ms", safety.recovery_limit, "limit of the step");
+  safety.home_limit = duration(table, "home_limit_ms", safety.home_limit, "limit of the step");
+  safety.grind_limit = duration(table, "grind_limit_ms", safety.grind_limit, "limit of the step");
+  safety.retract_limit =
+      duration(table, "retract_limit_ms", safety.retract_limit, "limit of the step");
+  safety.clear_limit =
+      duration(table, "clear_limit_ms", safety.clear_limit, "limit of the step, beyond clear_ms");
+  safety.focus_limit = duration(table, "focus_limit_ms", safety.focus_limit, "limit of the step");
+  safety.capture_limit = duration(table, "capture_limit_ms", safety.capture_limit,
+                                  "limit of the step, beyond twice capture_timeout_ms");
+  safety.assess_limit =
+      duration(table, "assess_limit_ms", safety.assess_limit, "limit of the step");
+  safety.store_limit = duration(table, "store_limit_ms", safety.store_limit, "limit of the step");
+  safety.park_limit =
+      duration(table, "park_limit_ms", safety.park_limit, "limit of stopping and parking the rig");
+  safety.reset_limit = duration(table, "reset_limit_ms", safety.reset_limit,
+                                "limit of resetting the controller's fault");
+  safety.volume_limit =
+      duration(table, "volume_limit_ms", safety.volume_limit,
+               "at the end of a job, a volume that does not grow for so long is given up");
+  return safety;
+}
+
+ServiceConfiguration read_service(const CheckedTable& table) {
+  ServiceConfiguration service;
+  const std::string listen =
+      table.get(TextKey{.name = "listen",
+                        .fallback = "127.0.0.1:8080",
+                        .description = "address and port of the web page and the API"});
+  try {
+    const bridge::Endpoint endpoint = bridge::parse_endpoint("tcp://" + listen);
+    service.host = endpoint.host;
+    service.port = endpoint.port;
+  } catch (const bridge::ConfigurationError&) {
+    table.reject("listen", "\"" + listen + "\" is not possible; expected \"address:port\"");
+  }
+  service.token_file = table.resolve(table.get(
+      TextKey{.name = "token_file",
+              .fallback = "biotomy.token",
+              .description = "holds the token that commands must carry; made when missing"}));
+  service.tick =
+      duration(table, "tick_ms", service.tick, "the rig is looked after so often", 1, 200);
+  service.stop_limit = duration(table, "stop_limit_ms", service.stop_limit,
+                                "when the daemon is told to end: time to come to rest");
+  return service;
+}
+
+Configuration read(const CheckedTable& document) {
+  Configuration configuration;
+  configuration.job.plan = read_job(document.table("job"));
+  configuration.stage = read_stage(document.table("stage"));
+  configuration.lines = read_lines(document.table("lines"));
+  configuration.camera = read_camera(document.table("camera"), configuration.job.camera);
+  configuration.job.focus = read_focus(document.table("focus"));
+  read_quality(document.table("quality"), configuration.job.thresholds, configuration.job.ladder);
+  configuration.job.store = read_store(document.table("store"));
+  configuration.job.limits = read_safety(document.table("safety"));
+  configuration.service = read_service(document.table("service"));
+  return configuration;
+}
+
+}  // namespace
+
+Configuration read_configuration(const std::filesystem::path& file) {
+  const CheckedTable document = CheckedTable::read_file(std::filesystem::absolute(file));
+  Configuration configuration = read(document);
+  document.refuse_unknown_keys();
+  return configuration;
+}
+
+Configuration parse_configuration(const std::string& text, const std::string& source) {
+  const CheckedTable document = CheckedTable::parse(text, source);
+  Configuration configuration = read(document);
+  document.refuse_unknown_keys();
+  return configuration;
+}
+
+const char* smallest_configuration() {
+  return R"toml([job]
+sample = "knee-042"
+layers = 1000
+layer_thickness_um = 20.0
+pixel_um = [10.0, 10.0]
+first_face_um = 1000.0
+
+[stage]
+endpoint = "tcp://127.0.0.1:1502"
+
+[lines]
+endpoint = "unix://rig.sock"
+
+[camera]
+endpoint = "unix://rig.sock"
+
+[focus]
+start_um = 0.0
+)toml";
+}
+
+std::vector<bridge::DeclaredKey> known_keys() {
+  const CheckedTable document = CheckedTable::parse(smallest_configuration(), "rig.toml");
+  read(document);
+  return document.declared_keys();
+}
+
+}  // namespace biotomy::acquisition

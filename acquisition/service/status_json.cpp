@@ -1,0 +1,122 @@
+#include "acquisition/service/status_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace biotomy::acquisition {
+namespace {
+
+using nlohmann::json;
+
+json metrics_json(const std::vector<Metric>& metrics) {
+  json list = json::array();
+  for (const Metric& metric : metrics) {
+    list.push_back({{"name", metric.name},
+                    {"value", metric.value},
+                    {"limit", metric.limit},
+                    {"passed", metric.passed}});
+  }
+  return list;
+}
+
+json stage_json(const JobStatus& status) {
+  if (!status.stage) return nullptr;
+  const bridge::StageStatus& stage = *status.stage;
+  return {{"answers", status.controller_answers},
+          {"controller_state", bridge::to_string(stage.state)},
+          {"positions_um",
+           {{"feed", stage.feed.value},
+            {"traverse", stage.traverse.value},
+            {"column", stage.column.value},
+            {"ground_to", stage.ground_to.value}}},
+          {"grind_count", stage.grind_count},
+          {"spindle", {{"rpm", stage.spindle_rpm}, {"load_percent", stage.spindle_load_percent}}},
+          {"vibration_mm_s", stage.vibration_mm_s},
+          {"temperatures_c",
+           {{"block", stage.block_temperature_c}, {"chamber", stage.chamber_temperature_c}}}};
+}
+
+json interlocks_json(const JobStatus& status) {
+  json controller = nullptr;
+  if (status.stage) {
+    const bridge::Interlocks& interlocks = status.stage->interlocks;
+    controller = {{"estop_pressed", interlocks.estop_pressed},
+                  {"door_open", interlocks.door_open},
+                  {"watchdog_tripped", interlocks.watchdog_tripped},
+                  {"homed", interlocks.homed}};
+  }
+  return {{"lines",
+           {{"estop_pressed", status.lines.estop_pressed}, {"door_open", status.lines.door_open}}},
+          {"controller", controller}};
+}
+
+json last_layer_json(const std::optional<CommittedLayer>& layer) {
+  if (!layer) return nullptr;
+  return {{"layer", layer->layer},
+          {"attempt", layer->attempt},
+          {"verdict", to_string(layer->assessment.verdict)},
+          {"reason", layer->assessment.reason},
+          {"metrics", metrics_json(layer->assessment.metrics)}};
+}
+
+template <typename Value>
+json or_null(const std::optional<Value>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+/// Text of devices and files need not be UTF-8: what is not becomes a replacement character.
+std::string dumped(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string status_json(const JobStatus& status) {
+  json alarm = nullptr;
+  if (status.alarm) alarm = {{"cause", status.alarm->cause}, {"since", status.alarm->since}};
+  return dumped({{"version", BIOTOMY_VERSION},
+                 {"state", to_string(status.state)},
+                 {"waiting_for", status.waiting_for},
+                 {"pause_requested", status.pause_requested},
+                 {"job", status.job},
+                 {"sample", status.sample},
+                 {"layer", status.layer},
+                 {"layers", status.layers},
+                 {"committed", status.committed},
+                 {"attempt", status.attempt},
+                 {"seconds_left", or_null(status.seconds_left)},
+                 {"stage", stage_json(status)},
+                 {"interlocks", interlocks_json(status)},
+                 {"last_layer", last_layer_json(status.last_layer)},
+                 {"disk_left_layers", or_null(status.disk_left_layers)},
+                 {"alarm", alarm},
+                 {"volume",
+                  {{"layers_present", status.volume.layers_present},
+                   {"finished", status.volume.finished},
+                   {"failure", status.volume.failure}}}});
+}
+
+std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count) {
+  json list = json::array();
+  for (const LayerRow& layer : layers) {
+    list.push_back({{"layer", layer.layer},
+                    {"attempt", layer.attempt},
+                    {"flagged", layer.flagged},
+                    {"file", layer.file},
+                    {"bytes", layer.bytes},
+                    {"sha256", layer.sha256},
+                    {"committed_at", layer.committed_at},
+                    {"reason", layer.reason},
+                    {"metrics", metrics_json(layer.metrics)}});
+  }
+  return dumped({{"count", count}, {"layers", list}});
+}
+
+std::string error_json(int code, const std::string& message) {
+  return dumped({{"error", {{"code", code}, {"message", message}}}});
+}
+
+std::string reply_json(const std::string& message) {
+  return dumped({{"accepted", true}, {"message", message}});
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "acquisition/job/job_status.hpp"
+#include "acquisition/records/journal_rows.hpp"
+
+namespace biotomy::acquisition {
+
+/// The JSON of GET /api/v1/status.
+std::string status_json(const JobStatus& status);
+
+/// The JSON of GET /api/v1/layers.
+std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count);
+
+/// {"error": {"code": …, "message": …}}
+std::string error_json(int code, const std::string& message);
+
+/// {"accepted": true, "message": …}
+std::string reply_json(const std::string& message);
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,135 @@
+#include "firmware_bridge/camera/pixel_formats.hpp"
+
+#include <array>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace biotomy::bridge {
+
+namespace {
+
+/// The plane as a Mat over its bytes, once they are known to be enough for `rows` × `columns`.
+cv::Mat view(const PixelPlane& plane, int rows, int columns, int type) {
+  const std::size_t row_bytes = static_cast<std::size_t>(columns) * CV_ELEM_SIZE(type);
+  const std::size_t needed = static_cast<std::size_t>(rows - 1) * plane.stride + row_bytes;
+  if (plane.stride < row_bytes || plane.bytes.size() < needed) {
+    throw PixelError("a frame of " + std::to_string(plane.bytes.size()) + " bytes with rows of " +
+                     std::to_string(plane.stride) + " is too short for " + std::to_string(rows) +
+                     " rows of " + std::to_string(row_bytes) + " bytes");
+  }
+  // OpenCV has no Mat of constant data; it is only read.
+  return {rows, columns, type, const_cast<std::uint8_t*>(plane.bytes.data()), plane.stride};
+}
+
+/// Full-range Y at full size, U and V at a lower one, to R, G, B. OpenCV's own conversions from
+/// subsampled formats know the limited range alone; its YCrCb is the full-range one of JPEG.
+cv::Mat full_range_to_rgb(const cv::Mat& y, const cv::Mat& u, const cv::Mat& v) {
+  cv::Mat full_u;
+  cv::Mat full_v;
+  cv::resize(u, full_u, y.size(), 0, 0, cv::INTER_NEAREST);
+  cv::resize(v, full_v, y.size(), 0, 0, cv::INTER_NEAREST);
+  cv::Mat merged;
+  cv::merge(std::array{y, full_v, full_u}, merged);
+  cv::Mat rgb;
+  cv::cvtColor(merged, rgb, cv::COLOR_YCrCb2RGB);
+  return rgb;
+}
+
+cv::Mat nv12_to_rgb(int width, int height, std::span<const PixelPlane> planes, YuvRange range) {
+  if (width % 2 != 0 || height % 2 != 0) {
+    throw PixelError("an NV12 frame needs an even width and height");
+  }
+  PixelPlane chroma;
+  if (planes.size() > 1) {
+    chroma = planes[1];
+  } else {
+    const std::size_t luma_bytes = planes[0].stride * static_cast<std::size_t>(height);
+    if (planes[0].bytes.size() < luma_bytes) throw PixelError("an NV12 frame without its colours");
+    chroma = {planes[0].bytes.subspan(luma_bytes), planes[0].stride};
+  }
+  const cv::Mat y = view(planes[0], height, width, CV_8UC1);
+  const cv::Mat uv = view(chroma, height / 2, width / 2, CV_8UC2);
+  cv::Mat rgb;
+  if (range == YuvRange::limited) {
+    cv::cvtColorTwoPlane(y, uv, rgb, cv::COLOR_YUV2RGB_NV12);
+    return rgb;
+  }
+  std::array<cv::Mat, 2> parts;
+  cv::split(uv, parts.data());
+  return full_range_to_rgb(y, parts[0], parts[1]);
+}
+
+cv::Mat yuyv_to_rgb(int width, int height, const PixelPlane& plane, YuvRange range) {
+  if (width % 2 != 0) throw PixelError("a YUYV frame needs an even width");
+  cv::Mat rgb;
+  if (range == YuvRange::limited) {
+    cv::cvtColor(view(plane, height, width, CV_8UC2), rgb, cv::COLOR_YUV2RGB_YUYV);
+    return rgb;
+  }
+  const cv::Mat pairs = view(plane, height, width / 2, CV_8UC4);
+  cv::Mat y;
+  cv::extractChannel(view(plane, height, width, CV_8UC2), y, 0);
+  cv::Mat u;
+  cv::Mat v;
+  cv::extractChannel(pairs, u, 1);
+  cv::extractChannel(pairs, v, 3);
+  return full_range_to_rgb(y, u, v);
+}
+
+cv::Mat mjpeg_to_rgb(int width, int height, const PixelPlane& plane) {
+  // Cameras pad the file with zeros. Without its end marker a JPEG was cut off, and a decoder would
+  // fill the rest with gray and say nothing.
+  std::span<const std::uint8_t> file = plane.bytes;
+  while (!file.empty() && file.back() == 0) file = file.first(file.size() - 1);
+  if (file.size() < 4 || file[0] != 0xFF || file[1] != 0xD8 || file[file.size() - 2] != 0xFF ||
+      file.back() != 0xD9) {
+    throw PixelError("a frame that is no whole JPEG");
+  }
+  const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8UC1,
+                      const_cast<std::uint8_t*>(file.data()));
+  const cv::Mat bgr = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (bgr.empty()) throw PixelError("a frame whose JPEG cannot be decoded");
+  if (bgr.cols != width || bgr.rows != height) {
+    throw PixelError("a JPEG of " + std::to_string(bgr.cols) + " x " + std::to_string(bgr.rows) +
+                     " pixels in a frame of " + std::to_string(width) + " x " +
+                     std::to_string(height));
+  }
+  cv::Mat rgb;
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  return rgb;
+}
+
+cv::Mat convert(PixelFormat format, int width, int height, std::span<const PixelPlane> planes,
+                YuvRange range) {
+  switch (format) {
+    case PixelFormat::rgb24:
+      return view(planes[0], height, width, CV_8UC3).clone();
+    case PixelFormat::bgr24: {
+      cv::Mat rgb;
+      cv::cvtColor(view(planes[0], height, width, CV_8UC3), rgb, cv::COLOR_BGR2RGB);
+      return rgb;
+    }
+    case PixelFormat::nv12:
+      return nv12_to_rgb(width, height, planes, range);
+    case PixelFormat::yuyv:
+      return yuyv_to_rgb(width, height, planes[0], range);
+    case PixelFormat::mjpeg:
+      return mjpeg_to_rgb(width, height, planes[0]);
+  }
+  throw PixelError("a frame of an unknown pixel format");
+}
+
+}  // namespace
+
+cv::Mat to_rgb(PixelFormat format, int width, int height, std::span<const PixelPlane> planes,
+               YuvRange range) {
+  if (width < 1 || height < 1 || planes.empty()) throw PixelError("a frame without pixels");
+  try {
+    return convert(format, width, height, planes, range);
+  } catch (const cv::Exception& error) {
+    throw PixelError("a frame that OpenCV cannot convert: " + error.err);
+  }
+}
+
+}  // namespace biotomy::bridge

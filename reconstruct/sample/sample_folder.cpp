@@ -1,0 +1,190 @@
+#include "reconstruct/sample/sample_folder.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include <toml++/toml.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/durable_file.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDescriptionName = "sample.toml";
+constexpr const char* kLayersName = "layers";
+constexpr const char* kRejectedName = "rejected";
+constexpr std::int64_t kMostVoxels = 1'000'000;  // along one axis
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+  throw SampleError(file.string() + ": " + what);
+}
+
+void check(const SampleDescription& description, const fs::path& file) {
+  const auto check_count = [&](const char* key, std::int64_t count) {
+    if (count < 1 || count > kMostVoxels) {
+      fail(file, std::string("grid.") + key + " is " + std::to_string(count) + ", must be 1 to " +
+                     std::to_string(kMostVoxels));
+    }
+  };
+  const auto check_spacing = [&](const char* key, double spacing) {
+    if (!std::isfinite(spacing) || spacing <= 0.0) {
+      fail(file, std::string("spacing_um.") + key + " must be a number above 0");
+    }
+  };
+  check_count("layers", description.cuboid.size.z);
+  check_count("width", description.cuboid.size.x);
+  check_count("height", description.cuboid.size.y);
+  check_spacing("x", description.cuboid.spacing.x);
+  check_spacing("y", description.cuboid.spacing.y);
+  check_spacing("z", description.cuboid.spacing.z);
+  if (description.bits != 8 && description.bits != 16) {
+    fail(file, "bits is " + std::to_string(description.bits) + ", must be 8 or 16");
+  }
+}
+
+std::string to_toml(const SampleDescription& description) {
+  const auto quoted = [](const std::string& text) { return toml::value<std::string>(text); };
+  const auto number = [](double value) { return toml::value<double>(value); };
+  const Cuboid& cuboid = description.cuboid;
+  std::ostringstream out;
+  out << "# A sample of Biotomy. Written once, when the sample was begun.\n"
+      << "name = " << quoted(description.name) << '\n'
+      << "created = " << quoted(description.created) << '\n'
+      << "notes = " << quoted(description.notes) << '\n'
+      << "bits = " << description.bits << "  # of one colour\n"
+      << "\n[grid]\n"
+      << "layers = " << cuboid.size.z << '\n'
+      << "width = " << cuboid.size.x << '\n'
+      << "height = " << cuboid.size.y << '\n'
+      << "\n[spacing_um]\n"
+      << "x = " << number(cuboid.spacing.x) << '\n'
+      << "y = " << number(cuboid.spacing.y) << '\n'
+      << "z = " << number(cuboid.spacing.z) << '\n';
+  return out.str();
+}
+
+void refuse_unknown_keys(const toml::table& table, const std::string& prefix,
+                         std::initializer_list<std::string_view> known, const fs::path& file) {
+  for (const auto& [key, value] : table) {
+    bool found = false;
+    for (const std::string_view name : known) {
+      found = found || key.str() == name;
+    }
+    if (!found) {
+      fail(file, "unknown key " + prefix + std::string(key.str()));
+    }
+  }
+}
+
+template <typename T>
+T required(const toml::table& table, const std::string& prefix, const char* key,
+           const fs::path& file) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) {
+    fail(file, prefix + key + " is missing");
+  }
+  const std::optional<T> value = node->value<T>();
+  if (!value) {
+    fail(file, prefix + key + " is not of the right type");
+  }
+  return *value;
+}
+
+const toml::table& required_table(const toml::table& table, const char* key, const fs::path& file) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr || !node->is_table()) {
+    fail(file, std::string("the table [") + key + "] is missing");
+  }
+  return *node->as_table();
+}
+
+SampleDescription parse(const fs::path& file) {
+  toml::table table;
+  try {
+    table = toml::parse_file(file.string());
+  } catch (const toml::parse_error& error) {
+    std::ostringstream what;
+    what << "line " << error.source().begin.line << ": " << error.description();
+    fail(file, what.str());
+  }
+  refuse_unknown_keys(table, "", {"name", "created", "notes", "bits", "grid", "spacing_um"}, file);
+  const toml::table& grid = required_table(table, "grid", file);
+  const toml::table& spacing = required_table(table, "spacing_um", file);
+  refuse_unknown_keys(grid, "grid.", {"layers", "width", "height"}, file);
+  refuse_unknown_keys(spacing, "spacing_um.", {"x", "y", "z"}, file);
+
+  SampleDescription description;
+  description.name = required<std::string>(table, "", "name", file);
+  description.created = required<std::string>(table, "", "created", file);
+  description.notes = required<std::string>(table, "", "notes", file);
+  description.bits = required<int>(table, "", "bits", file);
+  description.cuboid.size.z = required<std::int64_t>(grid, "grid.", "layers", file);
+  description.cuboid.size.x = required<std::int64_t>(grid, "grid.", "width", file);
+  description.cuboid.size.y = required<std::int64_t>(grid, "grid.", "height", file);
+  description.cuboid.spacing.x = required<double>(spacing, "spacing_um.", "x", file);
+  description.cuboid.spacing.y = required<double>(spacing, "spacing_um.", "y", file);
+  description.cuboid.spacing.z = required<double>(spacing, "spacing_um.", "z", file);
+  check(description, file);
+  return description;
+}
+
+}  // namespace
+
+SampleFolder::SampleFolder(fs::path path, SampleDescription description)
+    : path_(std::move(path)), description_(std::move(description)) {}
+
+SampleFolder SampleFolder::create(const fs::path& path, const SampleDescription& description) {
+  check(description, path / kDescriptionName);
+  std::error_code error;
+  if (fs::exists(path, error) && !(fs::is_directory(path, error) && fs::is_empty(path, error))) {
+    fail(path, "is there already and not empty; choose another name or remove it");
+  }
+  fs::create_directories(path / kLayersName, error);
+  if (!error) {
+    fs::create_directories(path / kRejectedName, error);
+  }
+  if (error) {
+    fail(path, "cannot create the sample folder: " + error.message());
+  }
+  write_durably(path / kDescriptionName, to_toml(description));
+  sync_folder(fs::absolute(path).lexically_normal().parent_path());
+  return {path, description};
+}
+
+SampleFolder SampleFolder::open(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    fail(path, "there is no such sample folder");
+  }
+  if (!fs::exists(path / kDescriptionName, error)) {
+    fail(path, std::string("is not a sample: there is no ") + kDescriptionName + " in it");
+  }
+  return {path, parse(path / kDescriptionName)};
+}
+
+fs::path SampleFolder::layer_path(std::int64_t layer) const {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%06lld.tif", static_cast<long long>(layer));
+  return path_ / kLayersName / name.data();
+}
+
+fs::path SampleFolder::volume_path() const {
+  return path_ / "volume.ome.zarr";
+}
+fs::path SampleFolder::journal_path() const {
+  return path_ / "journal.sqlite";
+}
+fs::path SampleFolder::rejected_path() const {
+  return path_ / kRejectedName;
+}
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/store/volume_layout.hpp"
+
+namespace biotomy::reconstruct {
+
+/// What there is of a sample on disk.
+struct SampleSummary {
+  std::int64_t layer_images = 0;
+  std::uint64_t layer_bytes = 0;
+  bool has_volume = false;
+  std::int64_t layers_in_volume = 0;
+  std::uint64_t volume_bytes = 0;
+  VolumeLayout layout;  ///< of the volume, if there is one
+};
+
+/// Looks at names and sizes and at the volume's metadata, not into images or chunks.
+/// Throws SampleError.
+SampleSummary summarise(const SampleFolder& sample);
+
+}  // namespace biotomy::reconstruct

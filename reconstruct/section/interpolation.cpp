@@ -1,0 +1,17 @@
+#include "reconstruct/section/interpolation.hpp"
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::reconstruct {
+
+Interpolation interpolation(const std::string& name) {
+  if (name == "nearest") {
+    return Interpolation::nearest;
+  }
+  if (name == "linear") {
+    return Interpolation::linear;
+  }
+  throw InvalidRequest("no interpolation is called '" + name + "': there are nearest and linear");
+}
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,83 @@
+#include "reconstruct/section/pixel_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr double kWholePixel = 1e-6;    // of a pixel: a width of 99.9999999 pixels holds 100
+constexpr double kSameCentre = 1e-9;    // of a voxel
+constexpr double kBorder = 1e-6;        // of a voxel
+constexpr double kMaxSidePixels = 1e9;  // so that counts are ints
+
+double pixels_along(double length, double pixel) {
+  return std::floor(length / pixel + kWholePixel) + 1.0;
+}
+
+}  // namespace
+
+PixelGrid pixel_grid(const ThetaRectangle& rectangle, double pixel, int bytes_per_pixel,
+                     std::int64_t max_bytes) {
+  if (!std::isfinite(pixel) || pixel <= 0.0) {
+    throw InvalidRequest("the pixel size must be a length above 0");
+  }
+  const double columns = pixels_along(rectangle.width, pixel);
+  const double rows = pixels_along(rectangle.height, pixel);
+  const double bytes = columns * rows * bytes_per_pixel;
+  if (bytes > static_cast<double>(max_bytes) || columns > kMaxSidePixels || rows > kMaxSidePixels) {
+    std::ostringstream message;
+    message << "a pixel of " << pixel << " um makes a picture of " << columns << " x " << rows
+            << " pixels, " << bytes / 1e9 << " GB; the limit is "
+            << static_cast<double>(max_bytes) / 1e9 << " GB: ask for a larger pixel";
+    throw SampleError(message.str());
+  }
+  return {rectangle, pixel, static_cast<int>(columns), static_cast<int>(rows)};
+}
+
+VoxelRow voxel_row(const PixelGrid& grid, const Cuboid& cuboid, int row) {
+  const ThetaRectangle& rectangle = grid.rectangle;
+  const Vector3 start = rectangle.origin + (row * grid.pixel) * rectangle.axes.q;
+  const Vector3 step = grid.pixel * rectangle.axes.p;
+  VoxelRow result{
+      {start.x / cuboid.spacing.x, start.y / cuboid.spacing.y, start.z / cuboid.spacing.z},
+      {step.x / cuboid.spacing.x, step.y / cuboid.spacing.y, step.z / cuboid.spacing.z}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double centre = std::round(result.start[axis]);
+    const bool constant = std::abs(result.step[axis]) * grid.columns < kSameCentre;
+    if (constant && std::abs(result.start[axis] - centre) < kSameCentre) {
+      result.start[axis] = centre;
+      result.step[axis] = 0.0;
+    }
+  }
+  return result;
+}
+
+ColumnRange columns_inside(const VoxelRow& row, ColumnRange range, const GridSize& size) {
+  const std::array<std::int64_t, 3> sizes{size.x, size.y, size.z};
+  double first = range.first;
+  double last = range.last - 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double lowest = -kBorder - row.start[axis];
+    const double highest = static_cast<double>(sizes[axis] - 1) + kBorder - row.start[axis];
+    if (row.step[axis] == 0.0) {
+      if (lowest > 0.0 || highest < 0.0) {
+        return {range.first, range.first};
+      }
+      continue;
+    }
+    const double a = lowest / row.step[axis];
+    const double b = highest / row.step[axis];
+    first = std::max(first, std::ceil(std::min(a, b)));
+    last = std::min(last, std::floor(std::max(a, b)));
+  }
+  if (first > last) {
+    return {range.first, range.first};
+  }
+  return {static_cast<int>(first), static_cast<int>(last) + 1};
+}
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "reconstruct/geometry/cuboid.hpp"
+#include "reconstruct/geometry/theta_rectangle.hpp"
+
+namespace biotomy::reconstruct {
+
+/// The pixels of a section in the rectangle that they fill: the centre of pixel (u, v) lies at
+/// origin + u·pixel·p + v·pixel·q.
+struct PixelGrid {
+  ThetaRectangle rectangle;
+  double pixel = 0.0;  ///< micrometres
+  int columns = 0;     ///< floor(width / pixel + 10⁻⁶) + 1
+  int rows = 0;        ///< floor(height / pixel + 10⁻⁶) + 1
+};
+
+/// Throws InvalidRequest for a pixel size that is not a number above zero, SampleError when the
+/// picture would take more than `max_bytes` at `bytes_per_pixel`.
+PixelGrid pixel_grid(const ThetaRectangle& rectangle, double pixel, int bytes_per_pixel,
+                     std::int64_t max_bytes);
+
+/// A row of pixel centres in voxel coordinates, in the order x, y, z: the centre of column u lies
+/// at start + u·step. Each coordinate is computed from u in double precision, so that nothing adds
+/// up along a row: at column 20 000 the error is below 10⁻¹¹ voxel.
+struct VoxelRow {
+  std::array<double, 3> start;
+  std::array<double, 3> step;
+
+  double at(int axis, int column) const {
+    return start[static_cast<std::size_t>(axis)] + column * step[static_cast<std::size_t>(axis)];
+  }
+};
+
+/// Row `row` of `grid` among the voxels of `cuboid`. A coordinate that is the same all along the
+/// row and within 10⁻⁹ voxel of a voxel centre is exactly that centre, with a step of exactly 0: a
+/// section along a layer needs no other layer.
+VoxelRow voxel_row(const PixelGrid& grid, const Cuboid& cuboid, int row);
+
+/// Columns from `first` to before `last`.
+struct ColumnRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// The columns of `range` whose centres lie in the cuboid, to within 10⁻⁶ voxel.
+ColumnRange columns_inside(const VoxelRow& row, ColumnRange range, const GridSize& size);
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <opencv2/core/mat.hpp>
+
+#include "reconstruct/section/chunk_source.hpp"
+#include "reconstruct/section/interpolation.hpp"
+#include "reconstruct/section/pixel_grid.hpp"
+
+namespace biotomy::reconstruct {
+
+/// Red, green and blue of 8 bits; in a picture of 16 bits each level is 257 times as high.
+using Colour = std::array<std::uint8_t, 3>;
+
+struct SampleStatistics {
+  std::int64_t chunks_touched = 0;  ///< different ones
+  double sample_s = 0.0;            ///< without the fetching of chunks; the threads' times added up
+};
+
+struct SampledImage {
+  cv::Mat image;  ///< CV_8UC3 or CV_16UC3 as the source has bits, R G B
+  SampleStatistics statistics;
+};
+
+/// The colours of the source at the pixel centres of `grid`; `background` where a centre is outside
+/// the cuboid by more than 10⁻⁶ voxel. Tiles of the picture are filled in parallel; the result does
+/// not depend on how. Throws what the source throws.
+SampledImage sample_grid(ChunkSource& source, const PixelGrid& grid, Interpolation kind,
+                         const Colour& background);
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,35 @@
+#include "reconstruct/section/section.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "reconstruct/geometry/section_polygon.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr int kColours = 3;
+
+double least_spacing(const Cuboid& cuboid) {
+  return std::min({cuboid.spacing.x, cuboid.spacing.y, cuboid.spacing.z});
+}
+
+}  // namespace
+
+SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request) {
+  SectionOutline outline{section_polygon(request.plane, cuboid), {}};
+  const ThetaRectangle rectangle =
+      theta_rectangle(request.style.theta, outline.polygon, request.basis);
+  outline.grid = pixel_grid(rectangle, request.style.pixel.value_or(least_spacing(cuboid)),
+                            kColours * bits / 8, request.style.max_bytes);
+  return outline;
+}
+
+Section cut_section(ChunkSource& source, const SectionRequest& request) {
+  SectionOutline outline = outline_section(source.cuboid(), source.bits(), request);
+  SampledImage sampled =
+      sample_grid(source, outline.grid, request.style.interpolation, request.style.background);
+  return {std::move(outline), std::move(sampled.image), sampled.statistics};
+}
+
+}  // namespace biotomy::reconstruct

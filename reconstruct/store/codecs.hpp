@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "reconstruct/store/volume_layout.hpp"
+
+namespace biotomy::reconstruct {
+
+struct Compressor;
+
+/// The names that a VolumeLayout's `codec` can have: `raw`, `zstd1`, `blosc-lz4-bitshuffle` and
+/// their like. Blosc shuffles single colour values: with whole voxels for elements (typesize 3) it
+/// was slower and no smaller.
+std::vector<std::string> codec_names();
+
+/// Throws InvalidRequest, naming those that there are.
+void check_codec_name(const std::string& name);
+
+/// The codecs of an inner chunk as Zarr v3 writes them: `transpose` (when interleaved), `bytes`,
+/// the compressor, `crc32c`. `transpose` has the order [1, 2, 3, 0]: dimension i of what is encoded
+/// is dimension order[i] of the array c, z, y, x (Zarr v3, codec "transpose" 1.0), so that a
+/// voxel's colours lie side by side.
+nlohmann::json codec_chain(const VolumeLayout& layout, int bits);
+
+/// Encodes and decodes inner chunks. Safe for many threads.
+class ChunkCodec {
+ public:
+  ChunkCodec(const VolumeLayout& layout, int bits);
+
+  /// Bytes of one decoded chunk.
+  std::size_t chunk_bytes() const { return voxels_ * kColours * value_bytes_; }
+
+  /// `voxels` is laid out as ChunkVoxels says, whatever the layout on disk.
+  std::vector<std::byte> encode(std::span<const std::byte> voxels) const;
+
+  /// Fills `voxels`, which has chunk_bytes(). Throws SampleError, with neither file nor place in
+  /// its message, when `encoded` is damaged.
+  void decode(std::span<const std::byte> encoded, std::span<std::byte> voxels) const;
+
+ private:
+  static constexpr std::size_t kColours = 3;
+
+  std::vector<std::byte> compress(std::span<const std::byte> plain) const;
+  void decompress(std::span<const std::byte> encoded, std::span<std::byte> plain) const;
+
+  const Compressor& compressor_;
+  bool interleaved_;
+  std::size_t voxels_;
+  std::size_t value_bytes_;
+};
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,190 @@
+#include "reconstruct/store/durable_file.hpp"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/file_descriptor.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kReadBlock = std::size_t{1} << 20;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
+  throw SampleError(path.string() + ": cannot " + what + ": " + std::strerror(error));
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new()) {
+    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+  }
+
+  void add(std::span<const std::byte> bytes) {
+    EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size());
+  }
+
+  std::string finish() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int length = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
+    constexpr const char* kDigits = "0123456789abcdef";
+    std::string hexadecimal;
+    for (unsigned int i = 0; i < length; ++i) {
+      hexadecimal += kDigits[digest[i] >> 4];
+      hexadecimal += kDigits[digest[i] & 15];
+    }
+    return hexadecimal;
+  }
+
+ private:
+  struct Free {
+    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+  };
+  std::unique_ptr<EVP_MD_CTX, Free> context_;
+};
+
+std::string sha256_of_descriptor(const FileDescriptor& file, const fs::path& path) {
+  Sha256 hash;
+  std::vector<std::byte> block(kReadBlock);
+  for (;;) {
+    const ssize_t count = ::read(file.get(), block.data(), block.size());
+    if (count < 0 && errno == EINTR) {
+      continue;
+    }
+    if (count < 0) {
+      fail(path, "read it", errno);
+    }
+    if (count == 0) {
+      return hash.finish();
+    }
+    hash.add({block.data(), static_cast<std::size_t>(count)});
+  }
+}
+
+/// A file beside the one that it is to replace; removed again unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) : target_(target) {
+    static std::atomic<unsigned> counter{0};
+    std::ostringstream name;
+    name << '.' << target.filename().string() << '.' << ::getpid() << '-' << counter++;
+    path_ = folder_of(target) / name.str();
+    file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    if (!file_.is_open()) {
+      fail(target, "create a file beside it", errno);
+    }
+  }
+  ~TemporaryFile() {
+    if (!renamed_) {
+      ::unlink(path_.c_str());
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write_and_sync(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) {
+        continue;
+      }
+      if (count < 0) {
+        fail(target_, "write it", errno);
+      }
+      bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+    if (::fsync(file_.get()) != 0) {
+      fail(target_, "write it to the disk", errno);
+    }
+  }
+
+  /// What the disk holds, not what the page cache remembers: the pages are clean after fsync and
+  /// can be dropped, so that reading fetches them anew (where the file system obeys the advice).
+  std::string hash_from_disk() {
+    ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
+    if (::lseek(file_.get(), 0, SEEK_SET) != 0) {
+      fail(target_, "read it back", errno);
+    }
+    return sha256_of_descriptor(file_, target_);
+  }
+
+  void rename_to_target() {
+    if (::rename(path_.c_str(), target_.c_str()) != 0) {
+      fail(target_, "give the finished file its name", errno);
+    }
+    renamed_ = true;
+    sync_folder(folder_of(target_));
+  }
+
+ private:
+  fs::path target_;
+  fs::path path_;
+  FileDescriptor file_;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+void write_durably(const fs::path& path, std::span<const std::byte> bytes) {
+  TemporaryFile file(path);
+  file.write_and_sync(bytes);
+  file.rename_to_target();
+}
+
+void write_durably(const fs::path& path, const std::string& text) {
+  write_durably(path, std::as_bytes(std::span(text)));
+}
+
+std::string write_durably_verified(const fs::path& path, std::span<const std::byte> bytes) {
+  const std::string expected = sha256(bytes);
+  TemporaryFile file(path);
+  file.write_and_sync(bytes);
+  if (file.hash_from_disk() != expected) {
+    throw SampleError(path.string() +
+                      ": what the disk gave back is not what was written; check the disk");
+  }
+  file.rename_to_target();
+  return expected;
+}
+
+void sync_folder(const fs::path& folder) {
+  const FileDescriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!descriptor.is_open() || ::fsync(descriptor.get()) != 0) {
+    fail(folder, "sync this folder", errno);
+  }
+}
+
+std::string sha256(std::span<const std::byte> bytes) {
+  Sha256 hash;
+  hash.add(bytes);
+  return hash.finish();
+}
+
+std::string sha256_of_file(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open()) {
+    fail(path, "open it", errno);
+  }
+  return sha256_of_descriptor(file, path);
+}
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "reconstruct/geometry/vector3.hpp"
+
+namespace biotomy::reconstruct {
+
+/// What the group of a volume says: OME-Zarr 0.5 (`attributes.ome`) for everybody, and
+/// `attributes.biotomy` for what OME-Zarr has no word for.
+struct VolumeMetadata {
+  std::string name;
+  Vector3 spacing;  ///< of level 0, micrometres
+  int bits = 8;
+  int levels = 1;
+  std::int64_t layers_present = 0;  ///< layers from 1 that hold what was photographed
+
+  friend bool operator==(const VolumeMetadata&, const VolumeMetadata&) = default;
+};
+
+/// The name of a level's array below the group: its number.
+std::string level_path(int level);
+
+/// How far level `level`'s first voxel centre lies from level 0's along an axis, in voxels of level
+/// 0: (2^level − 1)/2, as each voxel is the average of 2^level.
+double level_offset(int level);
+
+/// The text of the group's `zarr.json`.
+std::string group_metadata(const VolumeMetadata& metadata);
+
+/// Throws SampleError, which begins with `name`.
+VolumeMetadata parse_group_metadata(const std::string& text, const std::string& name);
+
+}  // namespace biotomy::reconstruct

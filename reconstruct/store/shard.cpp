@@ -1,0 +1,73 @@
+#include "reconstruct/store/shard.hpp"
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/crc32c.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr std::size_t kNumberBytes = 8;
+constexpr std::size_t kRangeBytes = 2 * kNumberBytes;
+constexpr std::size_t kChecksumBytes = 4;
+
+void append_little_endian(std::vector<std::byte>& out, std::uint64_t number, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; ++i) {
+    out.push_back(static_cast<std::byte>(number >> (8 * i)));
+  }
+}
+
+std::uint64_t little_endian(std::span<const std::byte> bytes) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    number |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
+  }
+  return number;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& chunks) {
+  std::size_t stored_bytes = 0;
+  for (const auto& chunk : chunks) {
+    stored_bytes += chunk.size();
+  }
+  std::vector<std::byte> shard;
+  if (stored_bytes == 0) {
+    return shard;
+  }
+  shard.reserve(stored_bytes + shard_index_bytes(chunks.size()));
+  std::vector<std::byte> index;
+  for (const auto& chunk : chunks) {
+    const ChunkRange range = chunk.empty() ? ChunkRange{} : ChunkRange{shard.size(), chunk.size()};
+    shard.insert(shard.end(), chunk.begin(), chunk.end());
+    append_little_endian(index, range.offset, kNumberBytes);
+    append_little_endian(index, range.length, kNumberBytes);
+  }
+  append_little_endian(index, crc32c(index), kChecksumBytes);
+  shard.insert(shard.end(), index.begin(), index.end());
+  return shard;
+}
+
+std::size_t shard_index_bytes(std::size_t chunk_count) {
+  return chunk_count * kRangeBytes + kChecksumBytes;
+}
+
+ShardIndex parse_shard_index(std::span<const std::byte> bytes, std::uint64_t shard_bytes) {
+  const auto ranges = bytes.first(bytes.size() - kChecksumBytes);
+  if (little_endian(bytes.last(kChecksumBytes)) != crc32c(ranges)) {
+    throw SampleError("the checksum of its index is wrong");
+  }
+  const std::uint64_t chunk_bytes = shard_bytes - bytes.size();
+  ShardIndex index(ranges.size() / kRangeBytes);
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    const auto range = ranges.subspan(i * kRangeBytes, kRangeBytes);
+    index[i] = {little_endian(range.first(kNumberBytes)), little_endian(range.last(kNumberBytes))};
+    if (index[i].stored() &&
+        (index[i].length > chunk_bytes || index[i].offset > chunk_bytes - index[i].length)) {
+      throw SampleError("its index leads out of it");
+    }
+  }
+  return index;
+}
+
+}  // namespace biotomy::reconstruct

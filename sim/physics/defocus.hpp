@@ -1,0 +1,31 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+namespace biotomy::sim {
+
+struct Lens {
+  double numerical_aperture = 0.1;  ///< on the side of the object
+  double wavelength_um = 0.55;
+};
+
+/// How wide a point of the face becomes, as the standard deviation of a Gaussian, in micrometres on
+/// the face, when it lies `defocus_um` from the focal plane.
+///
+/// Geometric optics: a cone of rays of half angle asin(NA) that meets the focal plane in a point
+/// covers at the distance δ a disc of diameter c = 2·|δ|·tan(asin NA) ≈ 2·NA·|δ| (circle of
+/// confusion; e.g. Born & Wolf, Principles of Optics, 4.8). A uniform disc of diameter c has the
+/// standard deviation c/4 along each axis.
+/// Diffraction: the Airy pattern is close to a Gaussian of 0.225·λ/NA (Zhang, Zerubia &
+/// Olivo-Marin, Applied Optics 46 (2007) 1819). The two are added as variances.
+double blur_sigma_um(const Lens& lens, double defocus_um);
+
+/// Blurs a CV_32FC3 picture in place by a Gaussian of `sigma` pixels; its time grows little with
+/// sigma. Nothing below a twentieth of a pixel.
+void blur(cv::Mat& picture, double sigma);
+
+/// Smears a CV_32FC3 picture in place along its rows, as movement by `pixels` during the exposure
+/// does.
+void smear_along_rows(cv::Mat& picture, double pixels);
+
+}  // namespace biotomy::sim

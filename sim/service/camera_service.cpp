@@ -1,0 +1,101 @@
+#include "sim/service/camera_service.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "firmware_bridge/wire/shared_frame.hpp"
+
+namespace biotomy::sim {
+
+namespace {
+
+void check(const char* what, double value, double least, double most) {
+  if (value < least || value > most) {
+    throw bridge::RigRefusal(std::string(what) + " " + std::to_string(value) + " is not between " +
+                             std::to_string(least) + " and " + std::to_string(most));
+  }
+}
+
+/// The photograph in sealed memory, its rows without gaps.
+bridge::UniqueFd shared(const cv::Mat& image) {
+  const std::size_t row_bytes = image.elemSize() * static_cast<std::size_t>(image.cols);
+  bridge::FrameMemory memory(row_bytes * static_cast<std::size_t>(image.rows));
+  for (int y = 0; y < image.rows; ++y) {
+    const std::span<const std::byte> row(reinterpret_cast<const std::byte*>(image.ptr(y)),
+                                         row_bytes);
+    std::ranges::copy(row, memory.bytes().begin() + static_cast<std::ptrdiff_t>(
+                                                        row_bytes * static_cast<std::size_t>(y)));
+  }
+  return memory.seal();
+}
+
+}  // namespace
+
+CameraService::CameraService(std::string model, Camera camera, const CameraOptics& optics, Rig& rig,
+                             WitnessLog& witness, CameraTime time)
+    : model_(std::move(model)),
+      optics_(optics),
+      rig_(rig),
+      witness_(witness),
+      time_(std::move(time)),
+      camera_(std::move(camera)) {}
+
+bridge::WelcomeMessage CameraService::welcome() const {
+  bridge::WelcomeMessage message;
+  message.camera = {model_, optics_.view.width, optics_.view.height};
+  return message;
+}
+
+bridge::RigAnswer CameraService::answer(const bridge::RigMessage& request) {
+  const std::lock_guard lock(using_);
+  if (const auto* settings = std::get_if<bridge::ConfigureMessage>(&request)) {
+    configure(*settings);
+    return {bridge::ConfiguredMessage{}, {}};
+  }
+  if (std::holds_alternative<bridge::CaptureMessage>(request)) {
+    return capture();
+  }
+  throw bridge::RigRefusal("the camera does not know " + bridge::type_of(request));
+}
+
+void CameraService::configure(const bridge::ConfigureMessage& request) {
+  check("exposure_us", request.exposure_us, 10, 10e6);
+  check("gain", request.gain, 1, 16);
+  check("red_gain", request.red_gain, 0.1, 8);
+  check("blue_gain", request.blue_gain, 0.1, 8);
+  exposure_ = {request.exposure_us, request.gain, request.red_gain, request.blue_gain};
+}
+
+bridge::RigAnswer CameraService::capture() {
+  const auto began = time_.now();
+  const Scene begin = rig_.scene();
+  time_.wait(std::chrono::microseconds(
+      static_cast<std::int64_t>(exposure_.exposure_us / rig_.time_scale())));
+  const Scene end = rig_.scene();
+  const double rig_s = rig_.rig_seconds();
+  const Photograph photograph = camera_.take(begin, end, exposure_);
+  witness_.capture(rig_s, {.number = photograph.number,
+                           .face_um = end.block.mean_um(),
+                           .column_um = end.column_um,
+                           .defocus_um = photograph.defocus_um,
+                           .blur_sigma_um = blur_sigma_um(optics_.lens, photograph.defocus_um),
+                           .face_in_view = photograph.face_in_view,
+                           .lamp_on = begin.lamp_on && end.lamp_on,
+                           .specks = end.block.debris().size()});
+  const cv::Mat& image = photograph.image;
+  bridge::FrameMessage frame;
+  frame.width = image.cols;
+  frame.height = image.rows;
+  frame.stride = static_cast<int>(image.elemSize()) * image.cols;
+  frame.format =
+      image.depth() == CV_16U ? bridge::RigPixelFormat::rgb161616 : bridge::RigPixelFormat::rgb888;
+  frame.sequence = photograph.number;
+  frame.timestamp_ns =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(began.time_since_epoch()).count();
+  frame.exposure_us = exposure_.exposure_us;
+  frame.gain = exposure_.gain;
+  return {frame, shared(image)};
+}
+
+}  // namespace biotomy::sim

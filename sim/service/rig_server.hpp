@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <stop_token>
+
+#include "firmware_bridge/wire/rig_client.hpp"
+#include "firmware_bridge/wire/rig_messages.hpp"
+#include "firmware_bridge/wire/rig_socket.hpp"
+
+namespace biotomy::sim {
+
+/// One service of the rig socket. Called from the threads of several connections at once.
+class RigServiceHandler {
+ public:
+  virtual ~RigServiceHandler() = default;
+  virtual bridge::WelcomeMessage welcome() const = 0;
+
+  /// The answer to a request; throws bridge::RigRefusal for what it will not do.
+  virtual bridge::RigAnswer answer(const bridge::RigMessage& request) = 0;
+};
+
+/// Serves camera, lines and bench on one Unix-domain socket, a thread a connection. Whatever is
+/// wrong with a request is answered by `error`, and the connection stays; packets that are none end
+/// it.
+class RigServer {
+ public:
+  using Handlers = std::map<bridge::RigService, RigServiceHandler*>;
+
+  /// Listens at once. Throws bridge::RigSocketError if it can't.
+  RigServer(const std::filesystem::path& socket, Handlers handlers);
+
+  /// Serves until stopped; ends within a tenth of a second then, but not before the frame that is
+  /// being taken. A handler's own failure (not a refusal) ends it by that exception.
+  void run(const std::stop_token& stop);
+
+ private:
+  void serve(bridge::RigConnection connection, const std::stop_token& stop) const;
+  bridge::RigAnswer answer_first(const bridge::RigMessage& request,
+                                 RigServiceHandler*& handler) const;
+
+  bridge::RigListener listener_;
+  Handlers handlers_;
+};
+
+}  // namespace biotomy::sim

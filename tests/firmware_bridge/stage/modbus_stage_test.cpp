@@ -1,0 +1,206 @@
+#include "firmware_bridge/stage/modbus_stage.hpp"
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "firmware_bridge/device_error.hpp"
+#include "firmware_bridge/wire/register_codec.hpp"
+#include "tests/firmware_bridge/thrown_message.hpp"
+
+namespace biotomy::bridge {
+namespace {
+
+using ::testing::HasSubstr;
+using Kind = DeviceError::Kind;
+
+/// A controller as two arrays of registers that notes its requests.
+struct FakeBus final : RegisterBus {
+  struct State {
+    std::vector<std::uint16_t> input = std::vector<std::uint16_t>(36);
+    std::vector<std::uint16_t> holding = std::vector<std::uint16_t>(8);
+    std::vector<std::string> requests;
+    bool write_times_out = false;
+  };
+  explicit FakeBus(State& to_use) : state(to_use) {}
+
+  void read(RegisterTable table, int address, std::span<std::uint16_t> registers) override {
+    state.requests.push_back("read " + std::to_string(address) + " " +
+                             std::to_string(registers.size()));
+    const auto& source = table == RegisterTable::input ? state.input : state.holding;
+    std::copy_n(source.begin() + address, registers.size(), registers.begin());
+  }
+  void write(int address, std::span<const std::uint16_t> registers) override {
+    state.requests.push_back("write " + std::to_string(address) + " " +
+                             std::to_string(registers.size()));
+    if (state.write_times_out) throw DeviceError(Kind::timeout, "no answer");
+    std::copy(registers.begin(), registers.end(), state.holding.begin() + address);
+  }
+
+  State& state;
+};
+
+std::string map_text() {
+  std::ifstream file(BIOTOMY_REGISTER_MAP);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+class ModbusStageTest : public ::testing::Test {
+ protected:
+  ModbusStageTest() {
+    put("map_magic", 0xB107);
+    put("map_version", 1);
+    put("controller_state", 1);
+  }
+
+  void put(const std::string& name, double value) {
+    const RegisterEntry& entry = map_.at(name);
+    auto& table = entry.table == RegisterTable::input ? state_.input : state_.holding;
+    encode(entry, map_.word_order(), value,
+           std::span(table).subspan(static_cast<std::size_t>(entry.address)));
+  }
+  double written(const std::string& name) {
+    const RegisterEntry& entry = map_.at(name);
+    return decode(entry, map_.word_order(),
+                  std::span(state_.holding).subspan(static_cast<std::size_t>(entry.address)));
+  }
+  std::string refusal_of_map(const std::string& text) {
+    return testing::thrown_message<ConfigurationError>([&] {
+      ModbusStage stage(RegisterMap::parse(text, "map.toml"), std::make_unique<FakeBus>(state_));
+    });
+  }
+
+  RegisterMap map_ = RegisterMap::read_file(BIOTOMY_REGISTER_MAP);
+  FakeBus::State state_;
+  ModbusStage stage_{map_, std::make_unique<FakeBus>(state_)};
+};
+
+TEST_F(ModbusStageTest, ExchangesInOneWriteAndOneRead) {
+  stage_.exchange(77);
+  EXPECT_THAT(state_.requests, ::testing::ElementsAre("write 0 1", "read 2 26"));
+  EXPECT_EQ(written("daemon_heartbeat"), 77);
+}
+
+TEST_F(ModbusStageTest, ReportsTheStatusInItsUnits) {
+  put("controller_state", 3);
+  put("fault_code", 2);
+  put("interlocks", 0b1010);
+  put("command_result", 2);
+  put("sequence_started", 4000000000.0);
+  put("grind_count", 12);
+  put("feed_position", -1234.5);
+  put("ground_position", 900.1);
+  put("block_temperature", -40.25);
+  put("outputs", 2);
+  const StageStatus status = stage_.exchange(1);
+  EXPECT_EQ(status.state, ControllerState::faulted);
+  EXPECT_EQ(status.fault_code, 2);
+  EXPECT_FALSE(status.interlocks.estop_pressed);
+  EXPECT_TRUE(status.interlocks.door_open);
+  EXPECT_FALSE(status.interlocks.watchdog_tripped);
+  EXPECT_TRUE(status.interlocks.homed);
+  EXPECT_EQ(status.last_result, CommandResult::refused);
+  EXPECT_EQ(status.sequence_started, 4000000000U);
+  EXPECT_EQ(status.grind_count, 12U);
+  EXPECT_EQ(status.feed.value, -1234.5);
+  EXPECT_EQ(status.ground_to.value, 900.1);
+  EXPECT_EQ(status.block_temperature_c, -40.25);
+  EXPECT_FALSE(status.coolant_on);
+  EXPECT_TRUE(status.air_on);
+}
+
+TEST_F(ModbusStageTest, RefusesACodeThatItDoesNotKnow) {
+  put("controller_state", 9);
+  EXPECT_THROW(stage_.exchange(1), DeviceError);
+}
+
+TEST_F(ModbusStageTest, IssuesAWholeCommandInOneWrite) {
+  stage_.issue(70000, {.action = StageAction::grind_pass,
+                       .position = {1250.3},
+                       .duration = std::chrono::milliseconds(0),
+                       .spindle_rpm = 3000});
+  EXPECT_THAT(state_.requests, ::testing::ElementsAre("write 1 7"));
+  EXPECT_EQ(written("command"), 2);
+  EXPECT_EQ(written("argument_position"), 1250.3);
+  EXPECT_EQ(written("argument_spindle"), 3000);
+  EXPECT_EQ(written("sequence"), 70000);
+}
+
+TEST_F(ModbusStageTest, NeverRepeatsACommandThatTimedOut) {
+  state_.write_times_out = true;
+  EXPECT_THROW(stage_.issue(1, {.action = StageAction::home}), DeviceError);
+  EXPECT_EQ(state_.requests.size(), 1U);
+}
+
+TEST_F(ModbusStageTest, SendsNothingForATargetThatDoesNotFit) {
+  for (const double position : {1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(stage_.issue(1, {.action = StageAction::grind_pass, .position = {position}}),
+                 DeviceError);
+  }
+  EXPECT_TRUE(state_.requests.empty());
+}
+
+TEST_F(ModbusStageTest, IdentifiesTheController) {
+  put("watchdog_timeout", 1500);
+  put("feed_maximum", 50000);
+  const StageIdentity identity = stage_.identify();
+  EXPECT_EQ(identity.map_version, 1);
+  EXPECT_EQ(identity.watchdog_timeout, std::chrono::milliseconds(1500));
+  EXPECT_EQ(identity.feed.maximum.value, 50000);
+}
+
+TEST_F(ModbusStageTest, RefusesAControllerWithOtherRegisters) {
+  put("map_magic", 1);
+  EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
+              HasSubstr("map_magic is 1, expected 45319"));
+  put("map_magic", 0xB107);
+  put("map_version", 2);
+  EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
+              HasSubstr("has version 2 of the register map"));
+}
+
+TEST_F(ModbusStageTest, RefusesAMapThatLacksAName) {
+  EXPECT_THAT(refusal_of_map(replaced(map_text(), "grind_count ", "grind_counter ")),
+              HasSubstr("registers.grind_count: missing"));
+}
+
+TEST_F(ModbusStageTest, RefusesAMapWhoseCommandIsNotOneBlock) {
+  EXPECT_THAT(refusal_of_map(replaced(map_text(), R"(table = "holding", address = 6)",
+                                      R"(table = "holding", address = 8)")),
+              HasSubstr("registers.sequence: must follow argument_spindle without a gap"));
+}
+
+TEST_F(ModbusStageTest, RefusesAMapWhoseSequenceComesBeforeAnArgument) {
+  std::string text = replaced(map_text(), R"(table = "holding", address = 6, type = "u32")",
+                              R"(table = "holding", address = 5, type = "u32")");
+  text = replaced(text, R"(table = "holding", address = 5, type = "u16")",
+                  R"(table = "holding", address = 7, type = "u16")");
+  EXPECT_THAT(refusal_of_map(text), HasSubstr("registers.sequence: must be the last"));
+}
+
+TEST_F(ModbusStageTest, RefusesAMapThatScalesACounter) {
+  EXPECT_THAT(refusal_of_map(replaced(map_text(), R"(address = 12, type = "u32", scale = 1,)",
+                                      R"(address = 12, type = "u32", scale = 2,)")),
+              HasSubstr("registers.grind_count: must be an integer with scale 1"));
+}
+
+TEST_F(ModbusStageTest, RefusesAMapWhoseCommandCannotBeWritten) {
+  EXPECT_THAT(refusal_of_map(replaced(
+                  map_text(), R"(address = 1, type = "u16", scale = 1, unit = "", access = "w")",
+                  R"(address = 1, type = "u16", scale = 1, unit = "", access = "r")")),
+              HasSubstr("registers.command: must be a holding register"));
+}
+
+}  // namespace
+}  // namespace biotomy::bridge

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/integration/child_process.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFailure = 1;
+constexpr int kUsage = 2;
+
+/// The tool as a user meets it: exit codes and what stands on stderr.
+class CommandLine : public testing::Test {
+ protected:
+  Outcome biotomy(const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{BIOTOMY_TOOL};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run(command, folder_.path());
+  }
+
+  /// Numbered images of one size, each a little brighter than the one before.
+  fs::path numbered_images(int count) {
+    const fs::path images = folder_.path() / "images";
+    fs::create_directory(images);
+    for (int i = 1; i <= count; ++i) {
+      cv::imwrite(images / ("face" + std::to_string(i) + ".png"),
+                  cv::Mat(48, 64, CV_8UC3, cv::Scalar(i, 2 * i, 3 * i)));
+    }
+    return images;
+  }
+
+  fs::path sample() {
+    const fs::path path = folder_.path() / "sample";
+    const Outcome outcome =
+        biotomy({"import", numbered_images(40), "--spacing", "10,10,20", "-o", path});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return path;
+  }
+
+  static void expect_one_line(const Outcome& outcome, int exit_code, const std::string& part) {
+    EXPECT_EQ(outcome.exit_code, exit_code);
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.output, "");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, PrintsItsVersionAndHelp) {
+  EXPECT_EQ(biotomy({"--version"}).exit_code, 0);
+  const Outcome help = biotomy({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* command : {"import", "info", "section", "series", "rig"}) {
+    EXPECT_NE(help.output.find(command), std::string::npos) << command;
+  }
+}
+
+TEST_F(CommandLine, RefusesAnUnknownCommand) {
+  expect_one_line(biotomy({"slice"}), kUsage, "slice");
+}
+
+TEST_F(CommandLine, ASectionAlongALayerIsThatLayer) {
+  const fs::path picture = folder_.path() / "layer.png";
+  const Outcome outcome = biotomy({"section", sample(), "--normal", "0,0,1", "--through",
+                                   "0,0,32", "--unit", "voxel", "-o", picture});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const cv::Mat expected = cv::imread(folder_.path() / "images" / "face33.png");
+  const cv::Mat image = cv::imread(picture);
+  ASSERT_EQ(image.size(), expected.size());
+  EXPECT_EQ(cv::norm(image, expected, cv::NORM_INF), 0.0);
+}
+
+TEST_F(CommandLine, RefusesAnImageOfAnotherSize) {
+  const fs::path images = numbered_images(4);
+  cv::imwrite(images / "face3.png", cv::Mat(48, 60, CV_8UC3, cv::Scalar(0)));
+  const fs::path path = folder_.path() / "sample";
+  expect_one_line(biotomy({"import", images, "--spacing", "10,10,20", "-o", path}), kFailure,
+                  "face3.png");
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(CommandLine, RefusesASequenceWithAMissingNumber) {
+  const fs::path images = numbered_images(4);
+  fs::remove(images / "face2.png");
+  const fs::path path = folder_.path() / "sample";
+  expect_one_line(biotomy({"import", images, "--spacing", "10,10,20", "-o", path}), kFailure, "2");
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(CommandLine, RefusesATruncatedFile) {
+  const fs::path images = numbered_images(4);
+  fs::resize_file(images / "face3.png", fs::file_size(images / "face3.png") / 2);
+  const fs::path path = folder_.path() / "sample";
+  expect_one_line(biotomy({"import", images, "--spacing", "10,10,20", "-o", path}), kFailure,
+                  "face3.png");
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(CommandLine, LeavesASampleThatIsAlreadyThereAsItIs) {
+  const fs::path path = sample();
+  const auto before = fs::last_write_time(path / "sample.toml");
+  expect_one_line(biotomy({"import", folder_.path() / "images", "--spacing", "1,1,1", "-o", path}),
+                  kFailure, "sample");
+  EXPECT_EQ(fs::last_write_time(path / "sample.toml"), before);
+}
+
+TEST_F(CommandLine, SaysThatAPlaneMisses) {
+  const fs::path picture = folder_.path() / "none.png";
+  expect_one_line(biotomy({"section", sample(), "--normal", "0,0,1", "--through", "0,0,5000",
+                           "-o", picture}),
+                  kFailure, "misses");
+  EXPECT_FALSE(fs::exists(picture));
+}
+
+TEST_F(CommandLine, RefusesThreePointsOnALine) {
+  expect_one_line(biotomy({"section", sample(), "--points", "0,0,0 10,10,10 20,20,20", "-o",
+                           folder_.path() / "none.png"}),
+                  kUsage, "line");
+}
+
+TEST_F(CommandLine, RefusesAPictureOfAnUnknownKindBeforeTheWork) {
+  expect_one_line(biotomy({"section", sample(), "--normal", "0,0,1", "--through", "0,0,0", "-o",
+                           folder_.path() / "none.bmp"}),
+                  kUsage, "bmp");
+}
+
+TEST_F(CommandLine, SaysThatAFolderIsNotASample) {
+  expect_one_line(biotomy({"info", folder_.path() / "nowhere"}), kFailure, "nowhere");
+}
+
+TEST_F(CommandLine, SaysThatNoDaemonAnswers) {
+  expect_one_line(biotomy({"rig", "status", "--url", "http://127.0.0.1:9"}), kFailure,
+                  "127.0.0.1:9");
+}
+
+TEST_F(CommandLine, TheDaemonRefusesAnUnknownKeyAndNamesTheNearest) {
+  const fs::path config = folder_.path() / "rig.toml";
+  std::ofstream(config) << "[job]\nsample = \"s\"\nlayer_thicknes_um = 20\n";
+  expect_one_line(run({BIOTOMY_DAEMON, "--config", config}, folder_.path()), kUsage,
+                  "layer_thickness_um");
+}
+
+TEST_F(CommandLine, TheTwinRefusesAnUnknownKeyAndNamesTheNearest) {
+  const fs::path config = folder_.path() / "sim.toml";
+  std::ofstream(config) << "[rig]\ntime_scal = 20\n";
+  expect_one_line(run({BIOTOMY_TWIN, "--config", config}, folder_.path()), kUsage, "time_scale");
+}
+
+}  // namespace
+}  // namespace biotomy::tests

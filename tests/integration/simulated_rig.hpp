@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/phantom/phantom.hpp"
+#include "tests/integration/child_process.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+
+/// The job that a simulated rig is given, and the specimen in it.
+struct RigPlan {
+  int width = 160;
+  int height = 120;
+  int layers = 36;  ///< a whole band of the volume and a part of the next
+  double pixel_um = 10;
+  double layer_thickness_um = 20;
+  double time_scale = 200;
+};
+
+/// A twin and a daemon as processes of their own, in a folder of their own; both are killed when
+/// the object goes. The daemon can be killed and started again while the twin goes on.
+class SimulatedRig {
+ public:
+  explicit SimulatedRig(const RigPlan& plan);
+
+  void start_daemon();
+  void kill_daemon();
+
+  /// `biotomy rig COMMAND`.
+  Outcome rig(const std::string& command, std::chrono::seconds limit = std::chrono::seconds(60));
+
+  /// The daemon's /api/v1/status.
+  nlohmann::json status();
+
+  /// Every line of the witness log with this "event".
+  std::vector<nlohmann::json> witnessed(const std::string& event) const;
+
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::filesystem::path sample() const { return folder_.path() / "sample"; }
+  const RigPlan& plan() const { return plan_; }
+
+  /// What is really in the block.
+  const sim::Phantom& phantom() const { return *phantom_; }
+
+ private:
+  RigPlan plan_;
+  TemporaryFolder folder_;
+  std::unique_ptr<sim::Phantom> phantom_;
+  std::unique_ptr<ChildProcess> twin_;
+  std::unique_ptr<ChildProcess> daemon_;
+  std::string url_;
+};
+
+}  // namespace biotomy::tests

@@ -1,0 +1,130 @@
+#include "reconstruct/sample/sample_folder.hpp"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/errors.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+using tests::TemporaryFolder;
+
+SampleDescription example() {
+  SampleDescription description;
+  description.name = "knee \"042\" – left";
+  description.notes = "two\nlines";
+  description.created = "2026-01-02T03:04:05Z";
+  description.bits = 16;
+  description.cuboid = {{4000, 3000, 1200}, {10.1, 10.2, 1.0 / 3.0}};
+  return description;
+}
+
+std::string good_toml() {
+  return "name = 'a'\ncreated = ''\nnotes = ''\nbits = 8\n[grid]\nlayers = 3\nwidth = 4\n"
+         "height = 5\n[spacing_um]\nx = 1\ny = 2.5\nz = 3\n";
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  return text.replace(text.find(what), what.size(), with);
+}
+
+class SampleToml : public testing::Test {
+ protected:
+  std::string message_for(const std::string& toml) {
+    write_text(folder_.path() / "sample.toml", toml);
+    return message_of<SampleError>([&] { SampleFolder::open(folder_.path()); });
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST(SampleFolder, IsTheSameWhenItIsOpenedAgain) {
+  const TemporaryFolder folder;
+  SampleFolder::create(folder.path() / "knee", example());
+  const SampleDescription description = SampleFolder::open(folder.path() / "knee").description();
+  EXPECT_EQ(description.name, example().name);
+  EXPECT_EQ(description.notes, example().notes);
+  EXPECT_EQ(description.created, example().created);
+  EXPECT_EQ(description.bits, 16);
+  EXPECT_EQ(description.cuboid.size, example().cuboid.size);
+  EXPECT_EQ(description.cuboid.spacing, example().cuboid.spacing);
+}
+
+TEST(SampleFolder, HasFoldersForLayersAndForRejectedFrames) {
+  const TemporaryFolder folder;
+  const auto sample = SampleFolder::create(folder.path() / "knee", example());
+  EXPECT_THAT(names_in(sample.path()),
+              testing::UnorderedElementsAre("sample.toml", "layers", "rejected"));
+}
+
+TEST(SampleFolder, NumbersLayersWithSixDigitsAndMoreWhenNeeded) {
+  const TemporaryFolder folder;
+  const auto sample = SampleFolder::create(folder.path() / "knee", example());
+  EXPECT_EQ(sample.layer_path(42), folder.path() / "knee" / "layers" / "000042.tif");
+  EXPECT_EQ(sample.layer_path(1000000).filename(), "1000000.tif");
+}
+
+TEST(SampleFolder, MayBeMadeInAnEmptyFolder) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(SampleFolder::create(folder.path(), example()));
+}
+
+TEST(SampleFolder, RefusesAFolderThatIsThereAndNotEmpty) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "precious", "x");
+  EXPECT_THAT(message_of<SampleError>([&] { SampleFolder::create(folder.path(), example()); }),
+              AllOf(StartsWith(folder.path().string()), HasSubstr("not empty")));
+  EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("precious"));
+}
+
+TEST(SampleFolder, RefusesADescriptionThatMakesNoSenseBeforeItMakesAnything) {
+  const TemporaryFolder folder;
+  SampleDescription description = example();
+  description.cuboid.spacing.z = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SampleFolder::create(folder.path() / "knee", description), SampleError);
+  EXPECT_TRUE(names_in(folder.path()).empty());
+}
+
+TEST(SampleFolder, ThatIsNotThereIsSaidSo) {
+  EXPECT_THAT(message_of<SampleError>([] { SampleFolder::open("/nowhere/knee"); }),
+              StartsWith("/nowhere/knee: there is no such sample"));
+}
+
+TEST_F(SampleToml, IsReadAsPeopleWriteIt) {
+  EXPECT_EQ(message_for(good_toml()), "nothing was thrown");
+}
+
+TEST_F(SampleToml, RefusesUnknownKeys) {
+  EXPECT_THAT(message_for("colour = 1\n" + good_toml()), HasSubstr("unknown key colour"));
+  EXPECT_THAT(message_for(good_toml() + "w = 1\n"), HasSubstr("unknown key spacing_um.w"));
+}
+
+TEST_F(SampleToml, NamesWhatIsMissingOrOfTheWrongType) {
+  EXPECT_THAT(message_for(replaced(good_toml(), "layers = 3\n", "")),
+              HasSubstr("grid.layers is missing"));
+  EXPECT_THAT(message_for(replaced(good_toml(), "width = 4", "width = 'wide'")),
+              HasSubstr("grid.width is not of the right type"));
+  EXPECT_THAT(message_for("name = 'a'\n"), HasSubstr("[grid] is missing"));
+}
+
+TEST_F(SampleToml, RefusesNumbersThatMakeNoSense) {
+  EXPECT_THAT(message_for(replaced(good_toml(), "layers = 3", "layers = 0")),
+              HasSubstr("grid.layers is 0"));
+  EXPECT_THAT(message_for(replaced(good_toml(), "bits = 8", "bits = 12")), HasSubstr("bits is 12"));
+  EXPECT_THAT(message_for(replaced(good_toml(), "z = 3", "z = -3")), HasSubstr("spacing_um.z"));
+  EXPECT_THAT(message_for(replaced(good_toml(), "z = 3", "z = inf")), HasSubstr("spacing_um.z"));
+}
+
+TEST_F(SampleToml, NamesTheLineThatIsNotToml) {
+  EXPECT_THAT(message_for("name = 'a'\nnotes =\n"), HasSubstr("line 2"));
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,59 @@
+#include "reconstruct/section/cached_volume.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "reconstruct/sample/layer_image.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/section/section.hpp"
+#include "reconstruct/store/volume_writer.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using tests::TemporaryFolder;
+
+constexpr int kLayers = 12;
+const cv::Size kLayerSize{50, 40};
+
+cv::Mat layer_image(int layer) {
+  cv::Mat image(kLayerSize, CV_8UC3);
+  cv::RNG random(static_cast<std::uint64_t>(layer));
+  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  return image;
+}
+
+TEST(CachedVolumeSource, GivesTheLayersOfAStoredSampleBackAsSections) {
+  const TemporaryFolder folder;
+  SampleDescription description;
+  description.name = "noise";
+  description.cuboid = {{kLayerSize.width, kLayerSize.height, kLayers}, {10.0, 10.0, 25.0}};
+  description.created = "2026-01-01T00:00:00Z";
+  const SampleFolder sample = SampleFolder::create(folder.path() / "noise", description);
+  for (int layer = 1; layer <= kLayers; ++layer) {
+    write_layer_image(sample.layer_path(layer), layer_image(layer),
+                      {layer, description.cuboid.spacing}, {});
+  }
+  VolumeLayout layout;
+  layout.chunk = {8, 16, 16};
+  layout.shard = {8, 32, 32};
+  VolumeWriter(sample, layout).append(kLayers, true);
+
+  const Volume volume = Volume::open(sample.volume_path());
+  CachedVolume source(volume, 1'000'000);
+  EXPECT_EQ(source.chunk_shape(), layout.chunk);
+  EXPECT_EQ(source.bits(), 8);
+  for (int layer = 1; layer <= kLayers; ++layer) {
+    const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, (layer - 1) * 25.0});
+    const Section section =
+        cut_section(source, {plane, section_basis(BasisKind::layer, plane), {}});
+    EXPECT_EQ(section.image.size(), kLayerSize);
+    EXPECT_EQ(cv::norm(section.image, layer_image(layer), cv::NORM_INF), 0.0) << layer;
+    EXPECT_EQ(section.statistics.chunks_touched, 12);
+  }
+  EXPECT_EQ(volume.statistics().chunks_read, 24);
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,55 @@
+#include "reconstruct/section/frame_canvas.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr Colour kBackground{96, 112, 136};
+const cv::Vec3b kBackgroundPixel{96, 112, 136};
+
+TEST(FrameCanvas, HasEvenSidesThatHoldThePictureAndItsLabel) {
+  for (const cv::Size size : {cv::Size(301, 201), cv::Size(300, 200), cv::Size(5, 1)}) {
+    const FrameCanvas canvas(size, "+180.0 deg", kBackground);
+    EXPECT_EQ(canvas.size().width % 2, 0);
+    EXPECT_EQ(canvas.size().height % 2, 0);
+    EXPECT_GE(canvas.size().width, size.width);
+    EXPECT_GT(canvas.size().height, size.height);
+  }
+}
+
+TEST(FrameCanvas, PutsThePictureInTheMiddleUntouched) {
+  const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
+  cv::Mat picture(100, 150, CV_8UC3);
+  cv::RNG random(1);
+  random.fill(picture, cv::RNG::UNIFORM, 0, 256);
+  const cv::Mat frame = canvas.draw(picture, "+000.0 deg");
+  ASSERT_EQ(frame.size(), canvas.size());
+  EXPECT_EQ(cv::norm(frame(cv::Rect(75, 50, 150, 100)), picture, cv::NORM_INF), 0.0);
+  EXPECT_EQ(frame.at<cv::Vec3b>(0, 0), kBackgroundPixel);
+  EXPECT_EQ(frame.at<cv::Vec3b>(50, 74), kBackgroundPixel);
+}
+
+TEST(FrameCanvas, DrawsTheLabelBelowThePicture) {
+  for (const int type : {CV_8UC3, CV_16UC3}) {
+    const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
+    const cv::Mat zero = canvas.draw_empty(type, "+000.0 deg");
+    const cv::Mat turned = canvas.draw_empty(type, "+012.0 deg");
+    EXPECT_EQ(zero.type(), type);
+    cv::Mat different;
+    cv::absdiff(zero, turned, different);
+    EXPECT_GT(cv::norm(different, cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(different.rowRange(0, 200), cv::NORM_INF), 0.0);
+  }
+}
+
+TEST(FrameCanvas, RefusesAPictureLargerThanTheLargest) {
+  const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
+  EXPECT_THROW(canvas.draw(cv::Mat(203, 300, CV_8UC3), "+000.0 deg"), InvalidRequest);
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,114 @@
+#include "reconstruct/section/pixel_grid.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr std::int64_t kMaxBytes = 2'000'000'000;
+const SectionBasis kAxes{{1, 0, 0}, {0, 1, 0}};
+
+PixelGrid grid_of(double width, double height, double pixel) {
+  return pixel_grid({{0, 0, 0}, kAxes, width, height}, pixel, 3, kMaxBytes);
+}
+
+TEST(PixelGrid, HasAPixelAtBothEnds) {
+  const PixelGrid grid = grid_of(90.0, 40.0, 10.0);
+  EXPECT_EQ(grid.columns, 10);
+  EXPECT_EQ(grid.rows, 5);
+}
+
+TEST(PixelGrid, LeavesOutAPixelThatDoesNotFit) {
+  EXPECT_EQ(grid_of(99.0, 9.9, 10.0).columns, 10);
+  EXPECT_EQ(grid_of(99.0, 9.9, 10.0).rows, 1);
+}
+
+TEST(PixelGrid, ForgivesAMillionthOfAPixel) {
+  EXPECT_EQ(grid_of(0.1 + 0.2, 0.0, 0.1).columns, 4);
+  EXPECT_EQ(grid_of(30.0 - 0.5e-5, 0.0, 10.0).columns, 4);
+  EXPECT_EQ(grid_of(30.0 - 5e-5, 0.0, 10.0).columns, 3);
+}
+
+TEST(PixelGrid, RefusesAPixelThatIsNoSize) {
+  for (const double pixel : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_THROW(grid_of(100.0, 100.0, pixel), InvalidRequest);
+  }
+}
+
+TEST(PixelGrid, RefusesAnAbsurdPictureAndSaysTheLimit) {
+  for (const double pixel : {1e-3, 1e-300}) {
+    try {
+      grid_of(1e5, 1e5, pixel);
+      FAIL() << "no error";
+    } catch (const SampleError& error) {
+      EXPECT_THAT(std::string(error.what()), testing::HasSubstr("the limit is 2 GB"));
+    }
+  }
+}
+
+TEST(PixelGrid, ColumnsDoNotDriftOver20000Pixels) {
+  const double spacing = 3.3;
+  const Cuboid cuboid{{20001, 20001, 2}, {spacing, spacing, 10.0}};
+  const PixelGrid grid = grid_of(20000 * spacing, 20000 * spacing, spacing);
+  ASSERT_EQ(grid.columns, 20001);
+  const VoxelRow last = voxel_row(grid, cuboid, 20000);
+  EXPECT_NEAR(last.at(0, 20000), 20000.0, 1e-10);
+  EXPECT_NEAR(last.at(1, 20000), 20000.0, 1e-10);
+}
+
+TEST(PixelGrid, ARowNearlyOnVoxelCentresIsOnThem) {
+  const Cuboid cuboid{{10, 10, 10}, {0.1, 0.1, 0.1}};
+  const PixelGrid grid = pixel_grid({{0, 0, 0.1 * 3 + 1e-15}, kAxes, 0.9, 0.9}, 0.1, 3, kMaxBytes);
+  const VoxelRow row = voxel_row(grid, cuboid, 7);
+  EXPECT_EQ(row.start[2], 3.0);
+  EXPECT_EQ(row.step[2], 0.0);
+  EXPECT_EQ(row.start[1], 7.0);
+}
+
+TEST(PixelGrid, ARowBetweenVoxelCentresStaysThere) {
+  const Cuboid cuboid{{10, 10, 10}, {1.0, 1.0, 1.0}};
+  const PixelGrid grid = pixel_grid({{0, 0, 3.25}, kAxes, 9.0, 9.0}, 1.0, 3, kMaxBytes);
+  EXPECT_EQ(voxel_row(grid, cuboid, 0).start[2], 3.25);
+}
+
+TEST(ColumnsInside, AreThoseWhoseCentresLieInTheCuboid) {
+  const GridSize size{10, 10, 10};
+  const VoxelRow row{{-2.5, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  const ColumnRange inside = columns_inside(row, {0, 100}, size);
+  EXPECT_EQ(inside.first, 3);
+  EXPECT_EQ(inside.last, 12);
+  const ColumnRange backwards = columns_inside({{11.5, 0, 0}, {-1.0, 0, 0}}, {0, 100}, size);
+  EXPECT_EQ(backwards.first, 3);
+  EXPECT_EQ(backwards.last, 12);
+}
+
+TEST(ColumnsInside, ForgiveRoundingAtTheBorder) {
+  const GridSize size{10, 10, 10};
+  const ColumnRange inside =
+      columns_inside({{-1e-9, 9.0 + 1e-9, 0.0}, {1.0, 0.0, 0.0}}, {0, 10}, size);
+  EXPECT_EQ(inside.first, 0);
+  EXPECT_EQ(inside.last, 10);
+}
+
+TEST(ColumnsInside, AreNoneForARowThatPassesBy) {
+  const GridSize size{10, 10, 10};
+  const ColumnRange beside = columns_inside({{0, 9.1, 0}, {1, 0, 0}}, {4, 9}, size);
+  EXPECT_EQ(beside.first, beside.last);
+  const ColumnRange across = columns_inside({{-5, 12, 0}, {1, 1, 0}}, {0, 100}, size);
+  EXPECT_EQ(across.first, across.last);
+}
+
+TEST(ColumnsInside, StayWithinTheRangeAskedFor) {
+  const ColumnRange inside = columns_inside({{0, 0, 0}, {0.1, 0, 0}}, {20, 30}, {10, 10, 10});
+  EXPECT_EQ(inside.first, 20);
+  EXPECT_EQ(inside.last, 30);
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

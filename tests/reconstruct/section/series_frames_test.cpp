@@ -1,0 +1,97 @@
+#include "reconstruct/section/series_frames.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "reconstruct/errors.hpp"
+#include "tests/reconstruct/section/memory_source.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using tests::MemorySource;
+using tests::noise;
+
+SectionStyle grey_blue_style() {
+  SectionStyle style;
+  style.background = kGreyBlue;
+  return style;
+}
+
+Translation along_z() {
+  Translation translation;
+  translation.normal = {0, 0, 1};
+  translation.step = 10.0;
+  return translation;
+}
+
+TEST(SeriesFrames, AreAllOfOneSize) {
+  MemorySource source;
+  Rotation rotation;
+  rotation.axis = {1, 0, 0};
+  rotation.to = 90.0;
+  rotation.step = 30.0;
+  const SeriesFrames frames(source, rotation_series(rotation, BasisKind::layer, source.box),
+                            grey_blue_style());
+  ASSERT_EQ(frames.count(), 4U);
+  for (std::size_t i = 0; i < frames.count(); ++i) {
+    EXPECT_EQ(frames.draw(i).size(), frames.frame_size());
+  }
+}
+
+TEST(SeriesFrames, ShowTheLayersInASeriesAlongZ) {
+  MemorySource source;
+  source.level = noise(source.box.size, 255, 1);
+  const SeriesFrames frames(source, translation_series(along_z(), BasisKind::layer, source.box),
+                            grey_blue_style());
+  ASSERT_EQ(frames.count(), 20U);
+  const cv::Mat frame = frames.draw(13);
+  const int left = (frames.frame_size().width - 40) / 2;
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      ASSERT_EQ(frame.at<cv::Vec3b>(y, left + x)[1], source.level(x, y, 13, 1));
+    }
+  }
+}
+
+TEST(SeriesFrames, AreBackgroundWhereThePlaneMisses) {
+  MemorySource source;
+  source.level = [](int, int, int, int) { return 255; };
+  Translation translation = along_z();
+  translation.from = 0.0;
+  translation.to = 400.0;
+  translation.step = 200.0;
+  const SeriesFrames frames(source, translation_series(translation, BasisKind::layer, source.box),
+                            grey_blue_style());
+  const cv::Mat empty = frames.draw(2);
+  const cv::Vec3b background(kGreyBlue[0], kGreyBlue[1], kGreyBlue[2]);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < empty.cols; ++x) {
+      ASSERT_EQ(empty.at<cv::Vec3b>(y, x), background);
+    }
+  }
+  EXPECT_EQ(empty.size(), frames.draw(0).size());
+}
+
+TEST(SeriesFrames, RefuseASeriesThatMissesTheSampleAltogether) {
+  MemorySource source;
+  Translation translation = along_z();
+  translation.from = 1000.0;
+  translation.to = 2000.0;
+  EXPECT_THROW(SeriesFrames(source, translation_series(translation, BasisKind::layer, source.box),
+                            grey_blue_style()),
+               SampleError);
+}
+
+TEST(SeriesFrames, RefuseFramesThatAreTooLargeBeforeAnythingIsRead) {
+  MemorySource source;
+  SectionStyle style = grey_blue_style();
+  style.pixel = 1e-3;
+  EXPECT_THROW(
+      SeriesFrames(source, translation_series(along_z(), BasisKind::layer, source.box), style),
+      SampleError);
+  EXPECT_TRUE(source.asked.empty());
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

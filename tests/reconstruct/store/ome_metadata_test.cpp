@@ -1,0 +1,70 @@
+#include "reconstruct/store/ome_metadata.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "reconstruct/errors.hpp"
+#include "tests/reconstruct/test_files.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+VolumeMetadata example() {
+  return {"knee \"042\"", {10.5, 11.0, 50.0}, 16, 3, 96};
+}
+
+TEST(OmeMetadata, IsUnderstoodAgain) {
+  EXPECT_EQ(parse_group_metadata(group_metadata(example()), "g"), example());
+}
+
+TEST(OmeMetadata, ScalesAreInTheOrderOfTheAxes) {
+  const auto group = nlohmann::json::parse(group_metadata(example()));
+  const auto& multiscale = group.at("attributes").at("ome").at("multiscales").at(0);
+  EXPECT_EQ(multiscale.at("axes").at(1).at("name"), "z");
+  EXPECT_EQ(multiscale.at("axes").at(1).at("unit"), "micrometer");
+  const auto& level = multiscale.at("datasets").at(0);
+  EXPECT_EQ(level.at("path"), "0");
+  EXPECT_EQ(level.at("coordinateTransformations").size(), 1U);
+  EXPECT_EQ(level.at("coordinateTransformations").at(0).at("scale"),
+            nlohmann::json({1.0, 50.0, 11.0, 10.5}));
+}
+
+TEST(OmeMetadata, HigherLevelsLieHalfOfTheirGrowthFurtherIn) {
+  const auto group = nlohmann::json::parse(group_metadata(example()));
+  const auto& level = group.at("attributes").at("ome").at("multiscales").at(0).at("datasets").at(2);
+  const auto& transformations = level.at("coordinateTransformations");
+  EXPECT_EQ(transformations.at(0).at("scale"), nlohmann::json({1.0, 200.0, 44.0, 42.0}));
+  EXPECT_EQ(transformations.at(1).at("translation"),
+            nlohmann::json({0.0, 75.0, 16.5, 15.75}));  // 1.5 voxels
+}
+
+TEST(OmeMetadata, ShowsTheThreeColoursInTheirFullRange) {
+  const auto group = nlohmann::json::parse(group_metadata(example()));
+  const auto& channels = group.at("attributes").at("ome").at("omero").at("channels");
+  ASSERT_EQ(channels.size(), 3U);
+  EXPECT_EQ(channels.at(0).at("color"), "FF0000");
+  EXPECT_EQ(channels.at(2).at("color"), "0000FF");
+  EXPECT_EQ(channels.at(1).at("window").at("end"), 65535);
+}
+
+TEST(OmeMetadata, RefusesAnotherVersion) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  group["attributes"]["ome"]["version"] = "0.4";
+  EXPECT_THAT(message_of<SampleError>([&] { parse_group_metadata(group.dump(), "v/zarr.json"); }),
+              testing::AllOf(testing::StartsWith("v/zarr.json"), testing::HasSubstr("0.5")));
+}
+
+TEST(OmeMetadata, RefusesANegativeNumberOfLayers) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  group["attributes"]["biotomy"]["layers_present"] = -1;
+  EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
+}
+
+TEST(OmeMetadata, RefusesAStoreWithoutOurOwnAttributes) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  group["attributes"].erase("biotomy");
+  EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,172 @@
+#include "reconstruct/store/volume_writer.hpp"
+
+#include <cstring>
+#include <tuple>
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/volume.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using testing::HasSubstr;
+using tests::TemporaryFolder;
+
+VolumeLayout small_layout() {
+  VolumeLayout layout;
+  layout.chunk = {4, 16, 8};
+  layout.shard = {8, 32, 48};
+  return layout;
+}
+
+/// One layer put together from the volume's chunks; fill value where there is none.
+cv::Mat layer_of(const Volume& volume, std::int64_t layer) {
+  const auto& chunk = volume.layout().chunk;
+  const GridSize& size = volume.cuboid().size;
+  const int type = volume.bits() == 8 ? CV_8UC3 : CV_16UC3;
+  const int z = static_cast<int>(layer - 1);
+  cv::Mat padded(static_cast<int>(size.y) + chunk[1], static_cast<int>(size.x) + chunk[2], type,
+                 cv::Scalar::all(0));
+  for (int y = 0; y < size.y; y += chunk[1]) {
+    for (int x = 0; x < size.x; x += chunk[2]) {
+      const auto voxels = volume.read_chunk({z / chunk[0], y / chunk[1], x / chunk[2]});
+      if (voxels) {
+        const std::size_t plane = voxels->size() / static_cast<std::size_t>(chunk[0]);
+        auto* data =
+            const_cast<std::byte*>(voxels->data()) + plane * static_cast<std::size_t>(z % chunk[0]);
+        cv::Mat(chunk[1], chunk[2], type, data).copyTo(padded(cv::Rect(x, y, chunk[2], chunk[1])));
+      }
+    }
+  }
+  return padded(cv::Rect(0, 0, static_cast<int>(size.x), static_cast<int>(size.y))).clone();
+}
+
+cv::Mat expected_layer(const GridSize& size, int bits, std::int64_t layer) {
+  return test_image(static_cast<int>(size.x), static_cast<int>(size.y),
+                    bits == 8 ? CV_8UC3 : CV_16UC3, static_cast<std::uint64_t>(layer));
+}
+
+class EveryVolume : public testing::TestWithParam<std::tuple<bool, int>> {};
+
+TEST_P(EveryVolume, HoldsEveryVoxelOfEveryLayer) {
+  const auto& [interleaved, bits] = GetParam();
+  const TemporaryFolder folder;
+  const GridSize size{100, 70, 19};
+  const auto sample = sample_with_layers(folder.path() / "s", size, bits, 19);
+  VolumeLayout layout = small_layout();
+  layout.interleaved = interleaved;
+  VolumeWriter(sample, layout).append(19, false);
+  const Volume volume = Volume::open(sample.volume_path());
+  EXPECT_EQ(volume.layout(), layout);
+  EXPECT_EQ(volume.layers_present(), 19);
+  for (std::int64_t layer = 1; layer <= 19; ++layer) {
+    ASSERT_TRUE(same_pixels(layer_of(volume, layer), expected_layer(size, bits, layer))) << layer;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, EveryVolume,
+                         testing::Combine(testing::Bool(), testing::Values(8, 16)));
+
+class Writer : public testing::Test {
+ protected:
+  std::int64_t present() const { return Volume::open(sample_.volume_path()).layers_present(); }
+  bool layer_is_right(std::int64_t layer) const {
+    return same_pixels(layer_of(Volume::open(sample_.volume_path()), layer),
+                       expected_layer(size_, 8, layer));
+  }
+
+  TemporaryFolder folder_;
+  GridSize size_{50, 40, 20};
+  SampleFolder sample_ = sample_with_layers(folder_.path() / "s", size_, 8, 20);
+};
+
+TEST_F(Writer, WritesOnlyBandsThatAreComplete) {
+  VolumeWriter writer(sample_, small_layout());
+  EXPECT_EQ(present(), 0);
+  writer.append(7, false);
+  EXPECT_EQ(present(), 0);
+  std::vector<std::int64_t> progress;
+  writer.append(17, false, [&](std::int64_t layers) { progress.push_back(layers); });
+  EXPECT_EQ(present(), 16);
+  EXPECT_THAT(progress, testing::ElementsAre(8, 16));
+  EXPECT_TRUE(layer_is_right(16));
+}
+
+TEST_F(Writer, WritesAnIncompleteBandToFinishAndLeavesTheRestFillValue) {
+  VolumeWriter writer(sample_, small_layout());
+  writer.append(11, true);
+  EXPECT_EQ(present(), 11);
+  EXPECT_TRUE(layer_is_right(11));
+  const cv::Mat absent = layer_of(Volume::open(sample_.volume_path()), 12);
+  EXPECT_EQ(cv::countNonZero(absent.reshape(1)), 0);
+}
+
+TEST_F(Writer, GoesOnWithAStoreThatIsThereAndKeepsItsLayout) {
+  VolumeWriter(sample_, small_layout()).append(11, true);
+  VolumeLayout other = small_layout();
+  other.codec = "raw";
+  VolumeWriter writer(sample_, other);
+  EXPECT_EQ(writer.layers_written(), 11);
+  writer.append(20, false);
+  EXPECT_EQ(present(), 20);
+  EXPECT_EQ(Volume::open(sample_.volume_path()).layout(), small_layout());
+  for (std::int64_t layer = 1; layer <= 20; ++layer) {
+    ASSERT_TRUE(layer_is_right(layer)) << layer;
+  }
+}
+
+TEST_F(Writer, OverwritesAShardOfABandThatWasInterrupted) {
+  VolumeWriter writer(sample_, small_layout());
+  const auto shard = sample_.volume_path() / "0" / "c" / "0" / "0" / "0" / "0";
+  std::filesystem::create_directories(shard.parent_path());
+  write_text(shard, "half a shard");
+  writer.append(8, false);
+  EXPECT_TRUE(layer_is_right(3));
+}
+
+TEST_F(Writer, DoesNotCountABandOfWhichALayerCannotBeRead) {
+  truncate_file(sample_.layer_path(12), 0.5);
+  VolumeWriter writer(sample_, small_layout());
+  EXPECT_THAT(message_of<SampleError>([&] { writer.append(20, false); }), HasSubstr("000012.tif"));
+  EXPECT_EQ(present(), 8);
+  EXPECT_EQ(writer.layers_written(), 8);
+}
+
+TEST_F(Writer, RefusesALayerOfAnotherSize) {
+  write_layer_image(sample_.layer_path(3), test_image(51, 40), {3, {1, 1, 1}}, {});
+  VolumeWriter writer(sample_, small_layout());
+  EXPECT_THAT(message_of<SampleError>([&] { writer.append(8, false); }),
+              testing::AllOf(HasSubstr("000003.tif"), HasSubstr("51 × 40")));
+}
+
+TEST_F(Writer, RefusesAStoreOfAnotherSample) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  const auto other = sample_with_layers(folder_.path() / "t", {50, 40, 30}, 8, 0);
+  std::filesystem::copy(sample_.volume_path(), other.volume_path(),
+                        std::filesystem::copy_options::recursive);
+  EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(other, small_layout()); }),
+              HasSubstr("does not fit"));
+}
+
+TEST_F(Writer, StoresNoShardThatIsAllFillValue) {
+  const auto black = sample_with_layers(folder_.path() / "b", {200, 40, 8}, 8, 0);
+  for (std::int64_t layer = 1; layer <= 8; ++layer) {
+    cv::Mat image(40, 200, CV_8UC3, cv::Scalar::all(0));
+    image(cv::Rect(0, 0, 10, 10)).setTo(cv::Scalar::all(9));
+    write_layer_image(black.layer_path(layer), image, {layer, {1, 1, 1}}, {});
+  }
+  VolumeWriter(black, small_layout()).append(8, false);
+  const auto rows = black.volume_path() / "0" / "c" / "0" / "0";
+  EXPECT_THAT(names_in(rows), testing::ElementsAre("0"));
+  EXPECT_THAT(names_in(rows / "0"), testing::ElementsAre("0"));
+  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk({0, 0, 2}), nullptr);   // same shard
+  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk({0, 2, 24}), nullptr);  // no shard
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,151 @@
+#include "sim/physics/camera.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace biotomy::sim {
+namespace {
+
+struct Studio {
+  SensorSettings sensor;
+  CameraOptics optics{.view = {.width = 200, .height = 200, .pixel_um = 50}};
+  Phantom phantom{PhantomSettings{.detail_um = 175}};
+  Scene scene{Block(1, 1000, 0, DebrisSettings{}), 0, 650, true};  // in focus: 650 + 350
+  ExposureSettings exposure;
+  std::uint64_t seed = 1;
+
+  Camera camera() const { return {seed, phantom, 1000, optics, sensor}; }
+  Photograph take() const { return camera().take(scene, scene, exposure); }
+};
+
+double sharpness(const cv::Mat& image) {
+  cv::Mat grey;
+  cv::Mat edges;
+  cv::cvtColor(image, grey, cv::COLOR_RGB2GRAY);
+  cv::Laplacian(grey, edges, CV_32F);
+  return cv::norm(edges, cv::NORM_L2SQR);
+}
+
+TEST(Camera, ShowsThePhantomInTheSampleCoordinates) {
+  Studio studio;
+  studio.sensor.vignetting = 0;
+  const Photograph photograph = studio.take();
+  ASSERT_EQ(photograph.image.type(), CV_8UC3);
+  EXPECT_TRUE(photograph.face_in_view);
+  EXPECT_EQ(photograph.defocus_um, 0);
+  double away = 0;
+  for (int i = 5; i < 195; i += 7) {
+    const Colour c = studio.phantom.colour_at(50 * i, 50 * (199 - i), 0);
+    away += std::abs(photograph.image.at<cv::Vec3b>(199 - i, i)[0] - c.r);
+  }
+  EXPECT_LT(away / 28, 4);
+}
+
+TEST(Camera, IsSharpestInTheFocalPlaneAndBlursAlikeOnBothSides) {
+  Studio studio;
+  const double sharp = sharpness(studio.take().image);
+  studio.scene.column_um = 650 + 3000;
+  const Photograph beyond = studio.take();
+  studio.scene.column_um = 650 - 3000;
+  const Photograph before = studio.take();
+  EXPECT_EQ(beyond.defocus_um, -3000);
+  EXPECT_EQ(before.defocus_um, 3000);
+  EXPECT_LT(sharpness(beyond.image), 0.7 * sharp);
+  EXPECT_NEAR(sharpness(beyond.image), sharpness(before.image), 0.01 * sharp);
+}
+
+TEST(Camera, RepeatsItsNoiseForTheSameSeedAndFrameNumber) {
+  Studio studio;
+  Camera one = studio.camera();
+  Camera same = studio.camera();
+  const cv::Mat first = one.take(studio.scene, studio.scene, studio.exposure).image;
+  EXPECT_EQ(cv::norm(first, same.take(studio.scene, studio.scene, studio.exposure).image), 0);
+  EXPECT_GT(cv::norm(first, one.take(studio.scene, studio.scene, studio.exposure).image), 0);
+  studio.seed = 2;
+  EXPECT_GT(cv::norm(first, studio.take().image), 0);
+}
+
+TEST(Camera, IsNoisierWhereThereIsMoreLight) {
+  SensorSettings settings;
+  settings.vignetting = 0;
+  const Sensor sensor(1, 300, 300, settings);
+  const auto deviation = [&](double level) {
+    const cv::Mat light(300, 300, CV_32FC3, cv::Scalar::all(level));
+    cv::Scalar mean;
+    cv::Scalar spread;
+    cv::meanStdDev(sensor.expose(light, true, {}, 1), mean, spread);
+    EXPECT_NEAR(mean[0], level, 0.1);
+    return spread[0];
+  };
+  EXPECT_GT(deviation(200), 1.3 * deviation(50));
+  // Photon noise sqrt(200·255/16000), read noise 0.5, rounding sqrt(1/12).
+  EXPECT_NEAR(deviation(200), std::sqrt(200 * 255.0 / 16000 + 0.25 + 1 / 12.0), 0.05);
+}
+
+TEST(Camera, FollowsExposureGainAndWhiteBalance) {
+  Studio studio;
+  const cv::Scalar plain = cv::mean(studio.take().image);
+  studio.exposure.exposure_us = 5000;
+  EXPECT_NEAR(cv::mean(studio.take().image)[1], 0.5 * plain[1], 1);
+  studio.exposure.gain = 2;
+  studio.exposure.red_gain = 0.5;
+  const cv::Scalar balanced = cv::mean(studio.take().image);
+  EXPECT_NEAR(balanced[0], 0.5 * plain[0], 1);
+  EXPECT_NEAR(balanced[1], plain[1], 1);
+}
+
+TEST(Camera, SeesNextToNothingWithoutTheLamp) {
+  Studio studio;
+  studio.scene.lamp_on = false;
+  EXPECT_LT(cv::mean(studio.take().image)[1], 2);
+}
+
+TEST(Camera, SeesTheEmptyBedWhileTheBlockIsUnderTheWheel) {
+  Studio studio;
+  studio.scene.traverse_um = 150000;
+  const Photograph photograph = studio.take();
+  EXPECT_FALSE(photograph.face_in_view);
+  EXPECT_NEAR(cv::mean(photograph.image)[1], 21, 3);
+}
+
+TEST(Camera, SeesDebrisUntilItIsBlownAway) {
+  Studio studio;
+  studio.scene.block = Block(1, 900, 0, {.specks = 100, .radius_um = 400, .hold_ms = 100});
+  studio.scene.block.begin_pass(1000);
+  studio.scene.block.cut_to(1);
+  Scene clean = studio.scene;
+  clean.block.blow(100);
+  Camera camera = studio.camera();
+  const cv::Mat dirty = camera.take(studio.scene, studio.scene, {}).image;
+  const cv::Mat blown = camera.take(clean, clean, {}).image;
+  EXPECT_GT(cv::norm(dirty, blown, cv::NORM_L1) / (3.0 * 200 * 200), 3);
+  Studio fresh;
+  EXPECT_LT(cv::norm(fresh.take().image, blown, cv::NORM_L1) / (3.0 * 200 * 200), 3);
+}
+
+TEST(Camera, ShowsTheStepOfABrokenPass) {
+  Studio studio;
+  studio.scene.block.begin_pass(1600);
+  studio.scene.block.cut_to(0.5);
+  Studio fresh;
+  studio.scene.block.blow(1e6);
+  studio.scene.column_um = 650 + 300;
+  fresh.scene.column_um = 650;
+  const cv::Mat difference = cv::abs(studio.take().image - fresh.take().image);
+  const double left = cv::mean(difference(cv::Rect(20, 20, 70, 160)))[0];
+  const double right = cv::mean(difference(cv::Rect(110, 20, 70, 160)))[0];
+  EXPECT_GT(left, 2 * right);
+}
+
+TEST(Camera, TakesSixteenBitsIfToldTo) {
+  Studio studio;
+  const double mean = cv::mean(studio.take().image)[1];
+  studio.sensor.bits = 16;
+  const cv::Mat image = studio.take().image;
+  ASSERT_EQ(image.type(), CV_16UC3);
+  EXPECT_NEAR(cv::mean(image)[1], 257 * mean, 257);
+}
+
+}  // namespace
+}  // namespace biotomy::sim

@@ -1,0 +1,64 @@
+#include "sim/physics/defocus.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+namespace biotomy::sim {
+namespace {
+
+TEST(Defocus, GrowsWithTheDistanceOnEitherSide) {
+  const Lens lens;
+  for (double away = 50; away < 2000; away += 50) {
+    EXPECT_GT(blur_sigma_um(lens, away), blur_sigma_um(lens, away - 50));
+    EXPECT_EQ(blur_sigma_um(lens, away), blur_sigma_um(lens, -away));
+  }
+}
+
+TEST(Defocus, IsDiffractionInTheFocalPlaneAndGeometryFarFromIt) {
+  EXPECT_NEAR(blur_sigma_um({0.1, 0.55}, 0), 1.2375, 1e-9);
+  EXPECT_NEAR(blur_sigma_um({0.1, 0.55}, 1000), 2 * 0.1 * 1000 / 4, 0.1);
+}
+
+/// The measured spread of a point that was blurred by `sigma`.
+double measured_sigma(double sigma) {
+  cv::Mat picture(241, 241, CV_32FC3, cv::Scalar::all(0));
+  picture.at<cv::Vec3f>(120, 120) = {1000, 1000, 1000};
+  blur(picture, sigma);
+  double sum = 0;
+  double second = 0;
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const double level = picture.at<cv::Vec3f>(y, x)[1];
+      sum += level;
+      second += level * (x - 120) * (x - 120);
+    }
+  }
+  return std::sqrt(second / sum);
+}
+
+TEST(Defocus, BlursByTheSigmaAskedForWhicheverWayItIsDone) {
+  for (const double sigma : {0.8, 2.0, 3.9, 4.1, 8.0, 15.0}) {
+    EXPECT_NEAR(measured_sigma(sigma), sigma, 0.08 * sigma) << sigma;
+  }
+}
+
+TEST(Defocus, LeavesASharpPictureAlone) {
+  cv::Mat picture(9, 9, CV_32FC3, cv::Scalar::all(0));
+  picture.at<cv::Vec3f>(4, 4) = {1, 1, 1};
+  const cv::Mat before = picture.clone();
+  blur(picture, 0.01);
+  EXPECT_EQ(cv::norm(picture, before), 0);
+}
+
+TEST(Defocus, SmearsMovementAlongTheRows) {
+  cv::Mat picture(9, 41, CV_32FC3, cv::Scalar::all(0));
+  picture.at<cv::Vec3f>(4, 20) = {5, 5, 5};
+  smear_along_rows(picture, 5);
+  EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(4, 22)[0], 1);
+  EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(5, 20)[0], 0);
+}
+
+}  // namespace
+}  // namespace biotomy::sim

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/store/volume.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tools/command.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+using reconstruct::InvalidRequest;
+using reconstruct::SampleFolder;
+using reconstruct::Volume;
+
+/// Runs `biotomy` with import and info alone; gives what it printed.
+class Commands : public testing::Test {
+ protected:
+  Commands() {
+    std::filesystem::create_directory(images_);
+    for (int i = 0; i < 3; ++i) {
+      reconstruct::save_rgb(images_ + ("/face" + std::to_string(i) + ".png"),
+                            reconstruct::test_image(20, 10));
+    }
+  }
+
+  static std::string run(std::vector<std::string> arguments) {
+    CLI::App app;
+    add_import_command(app);
+    add_info_command(app);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    testing::internal::CaptureStdout();
+    try {
+      app.parse(arguments);
+    } catch (...) {
+      testing::internal::GetCapturedStdout();
+      throw;
+    }
+    return testing::internal::GetCapturedStdout();
+  }
+
+  tests::TemporaryFolder folder_;
+  std::string images_ = (folder_.path() / "images").string();
+  std::string sample_ = (folder_.path() / "sample").string();
+};
+
+TEST_F(Commands, ImportOfAFolderMakesASampleNamedAfterItsFolder) {
+  EXPECT_EQ(run({"import", images_, "--spacing", "10,20,30", "-o", sample_}), "");
+  const auto description = SampleFolder::open(sample_).description();
+  EXPECT_EQ(description.name, "sample");
+  EXPECT_EQ(description.cuboid.spacing, (reconstruct::Vector3{10, 20, 30}));
+  EXPECT_EQ(description.cuboid.size, (reconstruct::GridSize{20, 10, 3}));
+}
+
+TEST_F(Commands, ImportTakesFilesAndTheSizeOfTheStack) {
+  run({"import", images_ + "/face1.png", images_ + "/face0.png", "--size", "200,200,40", "-o",
+       sample_, "--name", "knee"});
+  const auto description = SampleFolder::open(sample_).description();
+  EXPECT_EQ(description.name, "knee");
+  EXPECT_EQ(description.cuboid.spacing, (reconstruct::Vector3{10, 20, 20}));
+}
+
+TEST_F(Commands, ImportTakesTheLayoutInTheOrderXYZ) {
+  run({"import", images_, "--spacing", "1,1,1", "-o", sample_, "--chunk", "16,8,4", "--shard",
+       "64,32,4", "--codec", "zstd1", "--colours", "planar"});
+  const auto layout = Volume::open(SampleFolder::open(sample_).volume_path()).layout();
+  EXPECT_EQ(layout.chunk, (std::array<int, 3>{4, 8, 16}));
+  EXPECT_EQ(layout.shard, (std::array<int, 3>{4, 32, 64}));
+  EXPECT_EQ(layout.codec, "zstd1");
+  EXPECT_FALSE(layout.interleaved);
+}
+
+TEST_F(Commands, ImportWithoutAScaleIsWrongUsage) {
+  EXPECT_THROW(run({"import", images_, "-o", sample_}), InvalidRequest);
+  EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1,1", "--size", "1,1,1"}),
+               CLI::ParseError);
+  EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1"}), CLI::ParseError);
+  EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1,a"}), CLI::ParseError);
+  EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1,0"}), InvalidRequest);
+}
+
+TEST_F(Commands, ImportWithAnUnknownCodecIsWrongUsageBeforeAnyImageIsRead) {
+  EXPECT_THROW(run({"import", "/nowhere", "--spacing", "1,1,1", "-o", sample_, "--codec", "zip"}),
+               InvalidRequest);
+}
+
+TEST_F(Commands, InfoTellsPeopleAboutTheSample) {
+  run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
+  const std::string text = run({"info", sample_});
+  EXPECT_THAT(text, testing::HasSubstr("20 × 10 × 3"));
+  EXPECT_THAT(text, testing::HasSubstr("3 of 3"));
+  EXPECT_THAT(text, testing::HasSubstr("blosc-lz4"));
+}
+
+TEST_F(Commands, InfoTellsProgramsAboutTheSample) {
+  run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
+  const auto info = nlohmann::json::parse(run({"info", sample_, "--json"}));
+  EXPECT_EQ(info.at("size"), nlohmann::json({20, 10, 3}));
+  EXPECT_EQ(info.at("spacing_um"), nlohmann::json({10.0, 20.0, 30.0}));
+  EXPECT_EQ(info.at("layer_images").at("count"), 3);
+  EXPECT_EQ(info.at("volume").at("layers"), 3);
+  EXPECT_GT(info.at("volume").at("bytes"), 0);
+}
+
+TEST_F(Commands, InfoOfASampleWithoutAVolumeSaysSo) {
+  run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
+  std::filesystem::remove_all(SampleFolder::open(sample_).volume_path());
+  EXPECT_THAT(run({"info", sample_}), testing::HasSubstr("none yet"));
+  EXPECT_TRUE(nlohmann::json::parse(run({"info", sample_, "--json"})).at("volume").is_null());
+}
+
+TEST_F(Commands, InfoOfWhatIsNoSampleFails) {
+  EXPECT_THROW(run({"info", folder_.path().string()}), reconstruct::SampleError);
+}
+
+}  // namespace
+}  // namespace biotomy::tools

@@ -1,0 +1,145 @@
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/image_import.hpp"
+#include "reconstruct/sample/image_sequence.hpp"
+#include "reconstruct/store/codecs.hpp"
+#include "tools/command.hpp"
+#include "tools/progress_bar.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::vector<double> spacing;
+  std::vector<double> size;
+  std::string output;
+  std::string name;
+  std::string notes;
+  std::vector<int> chunk;
+  std::vector<int> shard;
+  std::string codec;
+  std::string colours = "interleaved";
+  std::string compression = "zstd";
+};
+
+reconstruct::Vector3 vector_of(const std::vector<double>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// The command line says x, y, z; the layout z, y, x.
+void set_sizes(std::array<int, 3>& sizes, const std::vector<int>& xyz) {
+  if (!xyz.empty()) {
+    sizes = {xyz[2], xyz[1], xyz[0]};
+  }
+}
+
+std::string now_utc() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+std::string name_of(const Options& options) {
+  if (!options.name.empty()) {
+    return options.name;
+  }
+  const fs::path output = fs::absolute(options.output).lexically_normal();
+  return (output.has_filename() ? output : output.parent_path()).filename().string();
+}
+
+reconstruct::ImportRequest request_of(const Options& options) {
+  if (options.spacing.empty() == options.size.empty()) {
+    throw reconstruct::InvalidRequest("give either --spacing X,Y,Z or --size X,Y,Z");
+  }
+  reconstruct::ImportRequest request;
+  request.output = options.output;
+  request.name = name_of(options);
+  request.notes = options.notes;
+  request.created = now_utc();
+  if (options.spacing.empty()) {
+    request.scale = reconstruct::StackSize{vector_of(options.size)};
+  } else {
+    request.scale = reconstruct::VoxelSpacing{vector_of(options.spacing)};
+  }
+  request.layer_format.compression = options.compression == "zstd"
+                                         ? reconstruct::LayerCompression::zstd
+                                         : reconstruct::LayerCompression::deflate;
+  set_sizes(request.layout.chunk, options.chunk);
+  set_sizes(request.layout.shard, options.shard);
+  request.layout.interleaved = options.colours == "interleaved";
+  if (!options.codec.empty()) {
+    request.layout.codec = options.codec;
+  }
+  reconstruct::check_layout(request.layout);
+  return request;
+}
+
+void run(const Options& options) {
+  const reconstruct::ImportRequest request = request_of(options);
+  const auto images =
+      reconstruct::ImageSequence::find({options.inputs.begin(), options.inputs.end()});
+  ProgressBar bar("Importing", "layers");
+  import_images(images, request,
+                [&](std::int64_t done, std::int64_t total) { bar.update(done, total); });
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "import", "Makes a sample of a folder, or of files, of numbered PNG, TIFF or JPEG images.");
+  command->add_option("IMAGES", options->inputs, "One folder, or the files of all layers")
+      ->required();
+  CLI::Option* spacing =
+      command
+          ->add_option("--spacing", options->spacing,
+                       "Distances between neighbouring voxels' centres, micrometres: X,Y,Z")
+          ->delimiter(',')
+          ->expected(3);
+  command
+      ->add_option("--size", options->size,
+                   "Instead: size of the whole stack over its outer sides, micrometres: X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->excludes(spacing);
+  command->add_option("-o,--output", options->output, "The sample folder to make")->required();
+  command->add_option("--name", options->name, "Name of the sample [the folder's]");
+  command->add_option("--notes", options->notes, "Anything to be remembered with the sample");
+  command
+      ->add_option("--layer-compression", options->compression,
+                   "Of the layer images: zstd or deflate [zstd]")
+      ->check(CLI::IsMember({"zstd", "deflate"}));
+  command
+      ->add_option("--chunk", options->chunk,
+                   "Voxels that are compressed together in the volume: X,Y,Z [32,32,32]")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      ->add_option("--shard", options->shard,
+                   "Voxels in one file of the volume, a multiple of the chunk: X,Y,Z "
+                   "[1024,1024,32]")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--codec", options->codec, "Of the volume's chunks [blosc-lz4-bitshuffle]");
+  command
+      ->add_option("--colours", options->colours,
+                   "In the volume's chunks: interleaved, voxel by voxel, or planar [interleaved]")
+      ->check(CLI::IsMember({"interleaved", "planar"}));
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace biotomy::tools

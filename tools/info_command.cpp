@@ -1,0 +1,103 @@
+#include <cstdint>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/sample/sample_summary.hpp"
+#include "tools/command.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+using reconstruct::SampleDescription;
+using reconstruct::SampleFolder;
+using reconstruct::SampleSummary;
+
+constexpr double kMebibyte = 1024.0 * 1024.0;
+
+struct Options {
+  std::string sample;
+  bool json = false;
+};
+
+nlohmann::json to_json(const SampleDescription& description, const SampleSummary& summary) {
+  const auto& [size, spacing] = description.cuboid;
+  const auto& layout = summary.layout;
+  nlohmann::json volume;  // null without one
+  if (summary.has_volume) {
+    volume = {{"layers", summary.layers_in_volume},
+              {"bytes", summary.volume_bytes},
+              {"chunk", {layout.chunk[2], layout.chunk[1], layout.chunk[0]}},
+              {"shard", {layout.shard[2], layout.shard[1], layout.shard[0]}},
+              {"codec", layout.codec},
+              {"interleaved", layout.interleaved}};
+  }
+  return {{"name", description.name},
+          {"created", description.created},
+          {"notes", description.notes},
+          {"size", {size.x, size.y, size.z}},
+          {"spacing_um", {spacing.x, spacing.y, spacing.z}},
+          {"bits", description.bits},
+          {"layer_images", {{"count", summary.layer_images}, {"bytes", summary.layer_bytes}}},
+          {"volume", volume}};
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / kMebibyte << " MiB";
+  return text.str();
+}
+
+void print(const SampleDescription& description, const SampleSummary& summary) {
+  const auto& [size, spacing] = description.cuboid;
+  const auto extent = description.cuboid.extent();
+  const auto& layout = summary.layout;
+  std::cout << "name      " << description.name << '\n'
+            << "created   " << description.created << '\n';
+  if (!description.notes.empty()) {
+    std::cout << "notes     " << description.notes << '\n';
+  }
+  std::cout << "voxels    " << size.x << " × " << size.y << " × " << size.z << ", "
+            << description.bits << " bits a colour\n"
+            << "spacing   " << spacing.x << " × " << spacing.y << " × " << spacing.z << " µm\n"
+            << "extent    " << extent.x / 1000 << " × " << extent.y / 1000 << " × "
+            << extent.z / 1000 << " mm between the outermost voxels' centres\n"
+            << "layers    " << summary.layer_images << " of " << size.z << ", "
+            << mebibytes(summary.layer_bytes) << '\n';
+  if (!summary.has_volume) {
+    std::cout << "volume    none yet\n";
+    return;
+  }
+  std::cout << "volume    " << summary.layers_in_volume << " layers, "
+            << mebibytes(summary.volume_bytes) << "; chunks of " << layout.chunk[2] << " × "
+            << layout.chunk[1] << " × " << layout.chunk[0] << ", shards of " << layout.shard[2]
+            << " × " << layout.shard[1] << " × " << layout.shard[0] << ", " << layout.codec << ", "
+            << (layout.interleaved ? "interleaved" : "planar") << '\n';
+}
+
+void run(const Options& options) {
+  const SampleFolder sample = SampleFolder::open(options.sample);
+  const SampleSummary summary = summarise(sample);
+  if (options.json) {
+    std::cout << to_json(sample.description(), summary).dump(2) << '\n';
+  } else {
+    print(sample.description(), summary);
+  }
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("info", "Tells what a sample is and what there is of it.");
+  command->add_option("SAMPLE", options->sample, "The sample folder")->required();
+  command->add_flag("--json", options->json, "As JSON");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace biotomy::tools

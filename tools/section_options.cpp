@@ -1,0 +1,65 @@
+#include "tools/section_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+constexpr double kBytesPerMb = 1e6;
+constexpr double kMostCacheMb = 1e6;
+
+std::size_t cache_bytes(const std::string& text) {
+  const double megabytes = reconstruct::parse_number("--cache-mb", text);
+  if (megabytes < 0.0 || megabytes > kMostCacheMb) {
+    throw reconstruct::InvalidRequest("--cache-mb '" + text + "': give 0 to 1000000");
+  }
+  return static_cast<std::size_t>(megabytes * kBytesPerMb);
+}
+
+}  // namespace
+
+void add_section_options(CLI::App& command, SectionOptions& options) {
+  command
+      .add_option("--unit", options.unit,
+                  "Of points and lengths: um, mm or voxel (a length: the least spacing)")
+      ->capture_default_str();
+  command.add_option("--basis", options.basis, "How the picture lies in the plane: layer or xz")
+      ->capture_default_str();
+  command.add_option("--theta", options.theta, "The rectangle of the picture: bounding")
+      ->capture_default_str();
+  command.add_option("--interpolation", options.interpolation, "nearest or linear")
+      ->capture_default_str();
+  command.add_option("--pixel", options.pixel, "Size of a pixel; the least spacing if none");
+  command.add_option("--background", options.background, "Colour outside the sample, R,G,B")
+      ->capture_default_str();
+  command.add_option("--cache-mb", options.cache_mb, "Memory for decoded chunks, MB")
+      ->capture_default_str();
+}
+
+SectionChoices choices(const SectionOptions& options) {
+  SectionChoices chosen{reconstruct::parse_unit("--unit", options.unit),
+                        reconstruct::basis_kind(options.basis),
+                        {},
+                        cache_bytes(options.cache_mb)};
+  chosen.style.theta = reconstruct::theta_kind(options.theta);
+  chosen.style.interpolation = reconstruct::interpolation(options.interpolation);
+  chosen.style.background = reconstruct::parse_colour("--background", options.background);
+  return chosen;
+}
+
+reconstruct::SectionStyle style_for(const SectionChoices& choices, const SectionOptions& options,
+                                    const reconstruct::Vector3& spacing) {
+  reconstruct::SectionStyle style = choices.style;
+  if (!options.pixel.empty()) {
+    const double length = reconstruct::parse_number("--pixel", options.pixel);
+    if (length <= 0.0) {
+      throw reconstruct::InvalidRequest("--pixel '" + options.pixel + "': give a size above 0");
+    }
+    style.pixel = reconstruct::length_in_micrometres(length, choices.unit, spacing);
+  }
+  return style;
+}
+
+}  // namespace biotomy::tools
