@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
@@ -113,7 +114,7 @@ std::string token_of(const RigOptions& options) {
 }
 
 std::string duration_text(double seconds) {
-  const long minutes = static_cast<long>(seconds / 60.0 + 0.5);
+  const long minutes = std::lround(seconds / 60.0);
   if (minutes < 1) return "less than a minute";
   if (minutes < 120) return std::to_string(minutes) + " min";
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";

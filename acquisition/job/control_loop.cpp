@@ -10,7 +10,7 @@
 namespace biotomy::acquisition {
 
 struct ControlLoop::State {
-  std::chrono::milliseconds period;
+  std::chrono::milliseconds period{0};
   std::function<void(TimePoint)> tick;
   std::function<void(const char*)> failed;
   std::mutex mutex;

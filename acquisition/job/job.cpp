@@ -223,7 +223,9 @@ void Job::enter(JobState state, TimePoint now) {
     case JobState::paused:
       pause_requested_ = false;
       if (reset_answer_) {
-        answers_.push_back({std::move(*reset_answer_), {true, "the latch is open"}});
+        answers_.push_back(
+            {std::move(*reset_answer_),
+             {true, start_after_reset_ ? "the checks have begun" : "the alarm is acknowledged"}});
       }
       reset_answer_.reset();
       if (std::exchange(start_after_reset_, false)) go(JobEvent::start, now);
@@ -277,12 +279,10 @@ void Job::park_after_fault(TimePoint now) {
                                fresh_->interlocks.estop_pressed || fresh_->interlocks.door_open ||
                                inputs_.estop_pressed || inputs_.door_open;
   try {
-    if (controller_acts) {
-      fault_parking_ = FaultParking::none;
-    } else if (fault_parking_ == FaultParking::wanted) {
+    if (!controller_acts && fault_parking_ == FaultParking::wanted) {
       parking_.begin(Parking::From::stopped, now);
       fault_parking_ = FaultParking::under_way;
-    } else if (parking_.poll(*fresh_, now)) {
+    } else if (controller_acts || parking_.poll(*fresh_, now)) {
       fault_parking_ = FaultParking::none;
     }
   } catch (const StepFailure& failure) {

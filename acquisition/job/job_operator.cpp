@@ -97,7 +97,7 @@ OperatorReply Job::begin(JobEvent event, TimePoint now) {
     return refused("the rig is stopped by an alarm (" + alarm_->cause + "): acknowledge it first");
   }
   // The operator who starts a rig whose daemon has just started has looked at it.
-  const OperatorReply reply = acknowledge(now);
+  OperatorReply reply = acknowledge(now);
   start_after_reset_ = reply.accepted;
   return reply;
 }

@@ -76,7 +76,7 @@ std::optional<std::string> Supervision::condition_cause() const {
            ": check its power and the link";
   }
   if (!last_exchange_) return std::nullopt;
-  if (now_ - *heartbeat_changed_ > limits_.controller_silent) {
+  if (*last_exchange_ - *heartbeat_changed_ > limits_.controller_silent) {
     return "the controller's heartbeat stands still since more than " +
            milliseconds(limits_.controller_silent) + ": its program does not run";
   }

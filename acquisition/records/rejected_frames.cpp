@@ -45,7 +45,7 @@ std::filesystem::path RejectedFrames::add(std::int64_t layer, int attempt, const
   std::array<char, 64> number{};
   std::snprintf(number.data(), number.size(), "%06lld-a%02d-", static_cast<long long>(layer),
                 attempt);
-  const std::filesystem::path path = folder_ / (number.data() + slug + ".jpg");
+  std::filesystem::path path = folder_ / (number.data() + slug + ".jpg");
   std::vector<unsigned char> jpeg;
   if (image.empty() || !cv::imencode(".jpg", small_bgr(image, width_px_), jpeg,
                                      {cv::IMWRITE_JPEG_QUALITY, kJpegQuality})) {

@@ -38,7 +38,7 @@ std::string random_token() {
 }
 
 std::string make_token(const std::filesystem::path& file, const bridge::UniqueFd& descriptor) {
-  const std::string token = random_token();
+  std::string token = random_token();
   const std::string line = token + "\n";
   if (::write(descriptor.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
       ::fsync(descriptor.get()) != 0) {

@@ -119,8 +119,8 @@ std::optional<bridge::GpioLineSettings> read_optional_line(const CheckedTable& t
 
 /// The socket's path of a "unix://" endpoint, which the socket backend needs.
 std::string read_socket_endpoint(const CheckedTable& table, bool required) {
-  const std::string text = optional_text(
-      table, "endpoint", "of the socket backend: \"unix://path\" of the rig's socket");
+  std::string text = optional_text(table, "endpoint",
+                                   "of the socket backend: \"unix://path\" of the rig's socket");
   if (text.empty()) {
     if (required) table.reject("endpoint", "missing; the socket backend needs \"unix://path\"");
     return text;

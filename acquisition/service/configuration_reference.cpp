@@ -9,7 +9,7 @@ namespace biotomy::acquisition {
 namespace {
 
 const char* about(const std::string& table) {
-  static const std::map<std::string, const char*> kAbout = {
+  static const std::map<std::string, const char*> abouts = {
       {"job", "What is ground and photographed."},
       {"stage", "The controller of the grinding stage, over Modbus."},
       {"lines", "The digital lines. E-stop and door are inputs, the others outputs."},
@@ -25,8 +25,8 @@ const char* about(const std::string& table) {
       {"safety", "Beyond these limits the wheel stops and a person is called."},
       {"service", "The web page, the HTTP API and the daemon itself."},
   };
-  const auto found = kAbout.find(table);
-  return found == kAbout.end() ? "" : found->second;
+  const auto found = abouts.find(table);
+  return found == abouts.end() ? "" : found->second;
 }
 
 /// A cell of a Markdown table; an empty one is a dash.

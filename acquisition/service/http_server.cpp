@@ -11,7 +11,7 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr std::size_t kLargestBody = 64 * 1024;
+constexpr std::size_t kLargestBody = 65536;
 constexpr std::size_t kThreads = 8;
 constexpr int kTimeOutSeconds = 5;
 constexpr int kRequestsPerConnection = 100;

@@ -1,0 +1,159 @@
+#include "tests/acquisition/fake_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "firmware_bridge/device_error.hpp"
+
+namespace biotomy::tests {
+
+using bridge::CommandResult;
+using bridge::ControllerState;
+using bridge::DeviceError;
+using bridge::StageAction;
+
+FakeStage::FakeStage() {
+  status.state = ControllerState::idle;
+  status.interlocks = {
+      .estop_pressed = false, .door_open = false, .watchdog_tripped = false, .homed = false};
+  status.block_temperature_c = -30.0;
+  status.chamber_temperature_c = -25.0;
+}
+
+bridge::StageIdentity FakeStage::identify() {
+  if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
+  return identity;
+}
+
+bridge::StageStatus FakeStage::exchange(std::uint16_t) {
+  if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
+  if (!heart_stopped) ++status.controller_heartbeat;
+  if (under_way_ && --exchanges_left_ <= 0) finish();
+  return status;
+}
+
+void FakeStage::issue(std::uint32_t sequence, const bridge::StageCommand& command) {
+  handed_over.push_back({sequence, command});
+  if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
+  if (lost_answer && lost_answer->action == command.action) {
+    const bool arrived = std::exchange(lost_answer, std::nullopt)->arrived;
+    if (arrived) begin(sequence, command);
+    throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
+  }
+  begin(sequence, command);
+}
+
+void FakeStage::begin(std::uint32_t sequence, const bridge::StageCommand& command) {
+  if (sequence == status.sequence_started) return;  // not a new number
+  on_command(command);
+  executed.push_back({sequence, command});
+  status.sequence_started = sequence;
+  under_way_ = Executed{sequence, command};
+  exchanges_left_ = command.action == StageAction::stop ? 1 : exchanges_per_command;
+  if (interlocked && command.action != StageAction::stop) {
+    status.sequence_finished = sequence;
+    status.last_result = CommandResult::refused;
+    under_way_.reset();
+    return;
+  }
+  status.state = ControllerState::busy;
+}
+
+void FakeStage::finish() {
+  const Executed done = *std::exchange(under_way_, std::nullopt);
+  status.sequence_finished = done.sequence;
+  status.last_result = CommandResult::done;
+  status.state = ControllerState::idle;
+  switch (done.command.action) {
+    case StageAction::home:
+      status.interlocks.homed = true;
+      break;
+    case StageAction::grind_pass:
+      status.feed = done.command.position + bridge::Micrometres{feed_error_um.value_or(0.0)};
+      status.ground_to = std::max(status.ground_to, status.feed);
+      ++status.grind_count;
+      status.traverse = {80000.0};
+      break;
+    case StageAction::retract:
+      status.traverse = {0.0};
+      break;
+    case StageAction::move_column:
+      status.column = done.command.position;
+      break;
+    case StageAction::reset_fault:
+      status.interlocks.watchdog_tripped = false;
+      status.fault_code = 0;
+      break;
+    case StageAction::clear_face:
+    case StageAction::stop:
+      break;
+  }
+}
+
+std::vector<double> FakeStage::ground() const {
+  std::vector<double> targets;
+  for (const Executed& entry : executed) {
+    if (entry.command.action == StageAction::grind_pass) {
+      targets.push_back(entry.command.position.value);
+    }
+  }
+  return targets;
+}
+
+int FakeStage::count(StageAction action) const {
+  return static_cast<int>(std::count_if(executed.begin(), executed.end(), [&](const auto& entry) {
+    return entry.command.action == action;
+  }));
+}
+
+void FakeLines::set(bridge::OutputRole role, bool value) {
+  if (value) {
+    on.insert(role);
+  } else {
+    on.erase(role);
+  }
+}
+
+bridge::CameraDescription FakeCamera::describe() {
+  if (gone) throw DeviceError(DeviceError::Kind::disconnected, "camera: gone");
+  return {.model = "fake", .width = width, .height = height};
+}
+
+bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
+  if (gone) throw DeviceError(DeviceError::Kind::disconnected, "camera: gone");
+  ++captures;
+  const double defocus =
+      std::abs(stage.status.ground_to.value - column_to_face_um - stage.status.column.value);
+  bridge::Frame frame;
+  frame.image = chequered_face(width, height, 0.5 + defocus / 20.0);
+  if (black_frames > 0) {
+    --black_frames;
+    frame.image.setTo(cv::Scalar::all(1));
+  }
+  frame.sequence = static_cast<std::uint64_t>(captures);
+  frame.exposure = std::chrono::microseconds(10000);
+  frame.gain = 1.0;
+  return frame;
+}
+
+void HeldWorker::run() {
+  for (auto& task : std::exchange(tasks, {})) task();
+}
+
+cv::Mat chequered_face(int width, int height, double sigma) {
+  cv::Mat face(height, width, CV_8UC3);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const bool light = (row / 4 + column / 4) % 2 == 0;
+      face.at<cv::Vec3b>(row, column) = light ? cv::Vec3b(200, 120, 110) : cv::Vec3b(90, 60, 50);
+    }
+  }
+  cv::Mat blurred;
+  cv::GaussianBlur(face, blurred, {}, sigma);
+  return blurred;
+}
+
+}  // namespace biotomy::tests

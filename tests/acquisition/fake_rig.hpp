@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "acquisition/job/worker.hpp"
+#include "firmware_bridge/camera/camera.hpp"
+#include "firmware_bridge/lines/lines.hpp"
+#include "firmware_bridge/stage/stage.hpp"
+
+namespace biotomy::tests {
+
+/// A controller that does what a good one does, a few exchanges a command. The knobs make it
+/// another.
+struct FakeStage : bridge::Stage {
+  bridge::StageIdentity identity{.map_version = 1,
+                                 .watchdog_timeout = std::chrono::milliseconds(1000),
+                                 .feed = {{0.0}, {50000.0}},
+                                 .column = {{0.0}, {10000.0}}};
+  bridge::StageStatus status{};
+  int exchanges_per_command = 2;
+
+  bool silent = false;                  ///< no exchange and no command succeeds
+  bool heart_stopped = false;           ///< controller_heartbeat stands still
+  bool interlocked = false;             ///< refuses every command but stop
+  std::optional<double> feed_error_um;  ///< the wheel comes to rest beside its target
+  /// An action whose next issue is answered by a time-out, and whether it arrived all the same.
+  struct LostAnswer {
+    bridge::StageAction action;
+    bool arrived;
+  };
+  std::optional<LostAnswer> lost_answer;
+  /// Called when a command arrives, before it is begun.
+  std::function<void(const bridge::StageCommand&)> on_command = [](const auto&) {};
+
+  struct Executed {
+    std::uint32_t sequence;
+    bridge::StageCommand command;
+  };
+  std::vector<Executed> executed;     ///< every command that was begun
+  std::vector<Executed> handed_over;  ///< every call of issue, arrived or not
+
+  FakeStage();
+  bridge::StageIdentity identify() override;
+  bridge::StageStatus exchange(std::uint16_t heartbeat) override;
+  void issue(std::uint32_t sequence, const bridge::StageCommand& command) override;
+
+  std::vector<double> ground() const;  ///< targets of the grind passes that were begun
+  int count(bridge::StageAction action) const;
+
+ private:
+  void begin(std::uint32_t sequence, const bridge::StageCommand& command);
+  void finish();
+
+  std::optional<Executed> under_way_;
+  int exchanges_left_ = 0;
+};
+
+struct FakeLines : bridge::Lines {
+  bridge::SafetyInputs inputs{.estop_pressed = false, .door_open = false};
+  std::set<bridge::OutputRole> on;
+
+  bridge::SafetyInputs read_inputs() override { return inputs; }
+  void set(bridge::OutputRole role, bool value) override;
+};
+
+/// Photographs a chequered face, blurred by the column's distance from where the face is sharp.
+struct FakeCamera : bridge::Camera {
+  FakeStage& stage;
+  double column_to_face_um = 400.0;  ///< sharp where column = ground_to - this
+  int width = 96;
+  int height = 64;
+  bool gone = false;
+  int black_frames = 0;  ///< so many of the next frames are black
+  int captures = 0;
+
+  explicit FakeCamera(FakeStage& rig_stage) : stage(rig_stage) {}
+  bridge::CameraDescription describe() override;
+  void apply(const bridge::CameraSettings&) override {}
+  bridge::Frame capture(std::chrono::milliseconds time_out) override;
+};
+
+/// Does what is posted at once, in the caller's thread.
+struct InlineWorker : acquisition::Worker {
+  void post(std::function<void()> task) override { task(); }
+};
+
+/// Keeps what is posted until a test lets it go on.
+struct HeldWorker : acquisition::Worker {
+  std::vector<std::function<void()>> tasks;
+  void post(std::function<void()> task) override { tasks.push_back(std::move(task)); }
+  void run();
+};
+
+/// Squares of 4 pixels in two colours, smoothed by a Gaussian of `sigma` pixels; CV_8UC3.
+cv::Mat chequered_face(int width, int height, double sigma);
+
+}  // namespace biotomy::tests

@@ -1,0 +1,133 @@
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/job/job.hpp"
+#include "acquisition/records/journal_reader.hpp"
+#include "tests/acquisition/job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using bridge::StageAction;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::uint32_t journalled_sequence(const JobBench& bench) {
+  return JournalReader(bench.settings.plan.sample / "journal.sqlite").last_sequence();
+}
+
+/// The daemon dies in the state, starts again, and the operator starts the job.
+void die_in(JobBench& bench, JobState state, int layer) {
+  bench.start_job();
+  while (bench.board.look()->layer < layer) bench.tick();
+  ASSERT_TRUE(bench.reach(state));
+}
+
+void restart(JobBench& bench) {
+  bench.start_daemon(journalled_sequence(bench));
+  bench.tick(20);  // what the controller had begun comes to its end
+  bench.start_job();
+}
+
+class JobAfterARestart : public testing::TestWithParam<JobState> {};
+
+TEST_P(JobAfterARestart, GrindsEveryLayerExactlyOnce) {
+  JobBench bench;
+  die_in(bench, GetParam(), 3);
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0, 1020.0, 1040.0, 1060.0, 1080.0));
+  EXPECT_EQ(bench.count_rows("layers"), 5);
+  EXPECT_EQ(bench.count_rows("grinds", "result = 'done'"), 5);
+}
+
+std::string state_name(const testing::TestParamInfo<JobState>& info) {
+  return to_string(info.param);
+}
+INSTANTIATE_TEST_SUITE_P(Steps, JobAfterARestart,
+                         testing::Values(JobState::retracting, JobState::clearing,
+                                         JobState::focusing, JobState::capturing,
+                                         JobState::assessing),
+                         state_name);
+
+TEST(JobRecovery, PhotographsWithoutGrindingWhenThePassEndedUnseen) {
+  JobBench bench;
+  die_in(bench, JobState::grinding, 3);
+  while (bench.stage.ground().size() < 3) bench.tick();  // the pass has begun
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.stage.ground().size(), 5U);
+}
+
+TEST(JobRecovery, StopsWhenTheControllerHasGroundFurtherThanTheJournalKnows) {
+  JobBench bench;
+  die_in(bench, JobState::clearing, 3);
+  bench.stage.status.ground_to = {1100.0};
+  ++bench.stage.status.grind_count;
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("disagrees with the controller"));
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+TEST(JobRecovery, StopsWhenACommittedLayersFileIsMissing) {
+  JobBench bench;
+  die_in(bench, JobState::clearing, 3);
+  std::filesystem::remove(bench.settings.plan.sample / "layers/000001.tif");
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("layer 1 is committed in the journal but its file"));
+}
+
+TEST(JobRecovery, StopsWhenACommittedLayersFileHasAnotherSize) {
+  JobBench bench;
+  die_in(bench, JobState::clearing, 3);
+  std::filesystem::resize_file(bench.settings.plan.sample / "layers/000002.tif", 1);
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("has 1 bytes"));
+}
+
+TEST(JobRecovery, RefusesASampleOfAnotherSpacing) {
+  JobBench bench;
+  die_in(bench, JobState::clearing, 2);
+  bench.settings.plan.pixel_x = {11.0};
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("another spacing"));
+}
+
+TEST(JobIssuing, ReadsBackAnUnansweredGrindThatWasStartedAndDoesNotRepeatIt) {
+  JobBench bench;
+  bench.stage.lost_answer = {StageAction::grind_pass, true};
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.stage.ground().size(), 5U);
+  EXPECT_EQ(bench.stage.status.grind_count, 5U);
+  EXPECT_EQ(std::count_if(
+                bench.stage.handed_over.begin(), bench.stage.handed_over.end(),
+                [](const auto& entry) { return entry.command.action == StageAction::grind_pass; }),
+            5);
+}
+
+TEST(JobIssuing, HandsAGrindOverAgainOnlyAfterReadingBackThatItWasNotStarted) {
+  JobBench bench;
+  bench.stage.lost_answer = {StageAction::grind_pass, false};
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.stage.ground().size(), 5U);
+  EXPECT_EQ(bench.count_rows("grinds"), 5);
+  // The same number twice: a first message that was merely late would have changed nothing.
+  const auto& calls = bench.stage.handed_over;
+  const auto first = std::find_if(calls.begin(), calls.end(), [](const auto& entry) {
+    return entry.command.action == StageAction::grind_pass;
+  });
+  ASSERT_NE(std::next(first), calls.end());
+  EXPECT_EQ(first->sequence, std::next(first)->sequence);
+}
+
+}  // namespace
+}  // namespace biotomy::tests

@@ -1,0 +1,208 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/job/job.hpp"
+#include "tests/acquisition/job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using bridge::StageAction;
+using testing::HasSubstr;
+
+const std::vector<JobState> kSteps = {
+    JobState::recovering, JobState::homing,    JobState::grinding, JobState::retracting,
+    JobState::clearing,   JobState::settling,  JobState::lighting, JobState::focusing,
+    JobState::capturing,  JobState::assessing, JobState::storing,  JobState::finishing};
+
+class JobInEveryState : public testing::TestWithParam<JobState> {};
+
+TEST_P(JobInEveryState, StopsTheWheelWhenTheEstopIsPressed) {
+  JobBench bench;
+  bench.settings.plan.layers = 1;
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(GetParam())) << to_string(bench.state());
+  const auto executed = bench.stage.executed.size();
+  bench.lines.inputs.estop_pressed = true;
+  bench.tick();
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("e-stop"));
+  ASSERT_GT(bench.stage.executed.size(), executed);
+  EXPECT_EQ(bench.stage.executed[executed].command.action, StageAction::stop);
+  EXPECT_FALSE(bench.lines.on.contains(bridge::OutputRole::lamp));
+  EXPECT_TRUE(bench.lines.on.contains(bridge::OutputRole::tower_light));
+
+  // Nothing moves any more, whatever is said, until the e-stop is out and acknowledged.
+  EXPECT_FALSE(bench.say(OperatorCommand::resume).accepted);
+  EXPECT_THAT(bench.say(OperatorCommand::acknowledge).sentence, HasSubstr("still there"));
+  bench.tick(200);
+  EXPECT_EQ(bench.stage.executed.size(), executed + 1);
+  bench.lines.inputs.estop_pressed = false;
+  bench.tick(200);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  EXPECT_EQ(bench.state(), JobState::paused);
+  EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+}
+
+std::string state_name(const testing::TestParamInfo<JobState>& info) {
+  return to_string(info.param);
+}
+INSTANTIATE_TEST_SUITE_P(Steps, JobInEveryState, testing::ValuesIn(kSteps), state_name);
+
+/// Runs to the grinding of layer 1, breaks something, and expects the rig to stop for that.
+void expect_stop(const std::function<void(JobBench&)>& breakage, const std::string& cause) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  breakage(bench);
+  ASSERT_TRUE(bench.reach(JobState::faulted, 1000)) << cause;
+  EXPECT_THAT(bench.alarm(), HasSubstr(cause));
+  EXPECT_LE(bench.stage.ground().size(), 1U);
+}
+
+TEST(JobSafety, StopsForAnOpenDoor) {
+  expect_stop([](JobBench& bench) { bench.lines.inputs.door_open = true; }, "door is open (line)");
+}
+
+TEST(JobSafety, StopsForTheControllersOwnInterlocks) {
+  expect_stop([](JobBench& bench) { bench.stage.status.interlocks.door_open = true; },
+              "door is open (controller)");
+  expect_stop([](JobBench& bench) { bench.stage.status.interlocks.watchdog_tripped = true; },
+              "watchdog");
+}
+
+TEST(JobSafety, StopsWhenTheControllerFallsSilent) {
+  expect_stop([](JobBench& bench) { bench.stage.silent = true; }, "does not answer");
+}
+
+TEST(JobSafety, StopsWhenTheControllersHeartStandsStill) {
+  expect_stop(
+      [](JobBench& bench) {
+        bench.stage.heart_stopped = true;
+        bench.stage.exchanges_per_command = 1000000;
+      },
+      "heartbeat stands still");
+}
+
+TEST(JobSafety, StopsWhenTheBlockGetsWarm) {
+  expect_stop(
+      [](JobBench& bench) {
+        bench.stage.status.block_temperature_c = -1.0;
+        bench.stage.exchanges_per_command = 1000000;
+      },
+      "the block is at -1.0");
+}
+
+TEST(JobSafety, StopsWhenTheFeedIsNotWhereItShouldBe) {
+  expect_stop([](JobBench& bench) { bench.stage.feed_error_um = 30.0; },
+              "the feed is at 1030.0 µm and should be at 1000.0 µm");
+}
+
+TEST(JobSafety, StopsWhenTheCameraDoesNotAnswer) {
+  expect_stop([](JobBench& bench) { bench.camera.gone = true; }, "camera: gone");
+}
+
+TEST(JobSafety, StopsWhenAStepTakesTooLong) {
+  JobBench bench;
+  bench.settings.limits.grind_limit = std::chrono::milliseconds(2000);
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.stage.exchanges_per_command = 1000000;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("grinding took longer than 2000 ms"));
+  EXPECT_THAT(bench.alarm(), HasSubstr("waits for the wheel"));
+}
+
+TEST(JobSafety, StopsBeforeTheDiskIsFull) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 1) bench.tick();
+  bench.free_bytes = 10;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("disk_reserve_layers"));
+  EXPECT_EQ(bench.count_rows("layers"), 2);  // the layer in work is safe
+  EXPECT_EQ(bench.stage.ground().size(), 2U);
+}
+
+TEST(JobSafety, RetractsAfterAnAlarmOfItsOwnWhenTheControllerListens) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::clearing));
+  const int retracted = bench.stage.count(StageAction::retract);
+  bench.camera.gone = true;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  bench.tick(100);
+  EXPECT_EQ(bench.stage.count(StageAction::retract), retracted + 1);
+  EXPECT_TRUE(bench.job->at_rest());
+}
+
+TEST(JobSafety, DeliversTheStopAsSoonAsASilentControllerListensAgain) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.stage.silent = true;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_EQ(bench.stage.count(StageAction::stop), 0);
+  bench.stage.silent = false;
+  bench.tick(2);
+  EXPECT_EQ(bench.stage.count(StageAction::stop), 1);
+}
+
+TEST(JobSafety, BeginsFaultedAndTouchesNothingUntilAPersonSaysSo) {
+  JobBench bench;
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_TRUE(bench.stage.handed_over.empty());
+  EXPECT_FALSE(bench.say(OperatorCommand::resume).accepted);
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  EXPECT_EQ(bench.state(), JobState::idle);
+  EXPECT_EQ(bench.alarm(), "");
+}
+
+TEST(JobSafety, DoesNotTakeStartForTheAcknowledgementOfARealAlarm) {
+  JobBench bench;
+  bench.stage.status.state = bridge::ControllerState::faulted;
+  bench.stage.status.fault_code = 3;
+  bench.tick();
+  EXPECT_THAT(bench.say(OperatorCommand::start).sentence, HasSubstr("acknowledge it first"));
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  EXPECT_EQ(bench.stage.count(StageAction::reset_fault), 1);
+  EXPECT_EQ(bench.state(), JobState::idle);
+}
+
+TEST(JobSafety, KeepsTheRecordOfAFrameThatAnAlarmOvertook) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::assessing));
+  bench.lines.inputs.door_open = true;
+  bench.tick();
+  ASSERT_EQ(bench.state(), JobState::faulted);
+  EXPECT_EQ(bench.count_rows("attempts", "slug = 'abandoned'"), 1);
+}
+
+TEST(JobSafety, RefusesAControllerWithoutAWatchdog) {
+  JobBench bench;
+  bench.stage.identity.watchdog_timeout = {};
+  bench.start_job();
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("watchdog_timeout is 0"));
+  EXPECT_EQ(bench.stage.ground().size(), 0U);
+}
+
+TEST(JobSafety, RefusesAJobThatLeavesTheFeedsLimits) {
+  JobBench bench;
+  bench.stage.identity.feed.maximum = {1050.0};
+  bench.start_job();
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("layer 5 would be at 1080 µm of the feed"));
+  EXPECT_FALSE(std::filesystem::exists(bench.settings.plan.sample));
+}
+
+}  // namespace
+}  // namespace biotomy::tests

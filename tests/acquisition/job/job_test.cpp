@@ -1,0 +1,192 @@
+#include "acquisition/job/job.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/acquisition/job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Job, GrindsPhotographsAndStoresEveryLayerInOrder) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << to_string(bench.state()) << ": " << bench.alarm();
+  EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0, 1020.0, 1040.0, 1060.0, 1080.0));
+  EXPECT_THAT(bench.written,
+              ElementsAre("000001.tif", "000002.tif", "000003.tif", "000004.tif", "000005.tif"));
+  EXPECT_EQ(bench.count_rows("layers"), 5);
+  EXPECT_EQ(bench.count_rows("grinds", "result = 'done'"), 5);
+  EXPECT_EQ(bench.count_rows("attempts", "verdict = 'accepted'"), 5);
+  EXPECT_EQ(bench.in_volume, 5);
+  EXPECT_TRUE(bench.volume_finished);
+  EXPECT_TRUE(bench.lines.on.empty());  // the lamp is off
+  EXPECT_EQ(bench.stage.status.traverse.value, 0.0);
+  EXPECT_EQ(bench.board.look()->committed, 5);
+}
+
+TEST(Job, FindsTheFocusOnceAndFollowsTheFaceAfterwards) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("focus_sweeps"), 1);
+  // Sharp where column = face - 400: the last face is at 1080.
+  EXPECT_NEAR(bench.stage.status.column.value, 680.0, 3.0);
+}
+
+TEST(Job, CarriesANewNumberWithEveryCommand) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done));
+  for (std::size_t i = 1; i < bench.stage.executed.size(); ++i) {
+    EXPECT_GT(bench.stage.executed[i].sequence, bench.stage.executed[i - 1].sequence);
+  }
+}
+
+TEST(Job, WritesAGrindDownBeforeItIsIssued) {
+  JobBench bench;
+  int checked = 0;
+  bench.stage.on_command = [&](const bridge::StageCommand& command) {
+    if (command.action != bridge::StageAction::grind_pass) return;
+    EXPECT_EQ(bench.count_rows("grinds", "finished_at IS NULL AND target_um = " +
+                                             std::to_string(command.position.value)),
+              1);
+    ++checked;
+  };
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done));
+  EXPECT_EQ(checked, 5);
+}
+
+TEST(Job, DoesNotGrindBeforeTheLayerBeforeIsStoredAndCommitted) {
+  JobBench bench;
+  bench.stage.on_command = [&](const bridge::StageCommand& command) {
+    if (command.action != bridge::StageAction::grind_pass) return;
+    const auto ground_before = static_cast<std::int64_t>(bench.stage.ground().size());
+    EXPECT_EQ(bench.count_rows("layers"), ground_before);
+    EXPECT_EQ(static_cast<std::int64_t>(bench.written.size()), ground_before);
+  };
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done));
+}
+
+TEST(Job, GrindsNoFurtherWhenALayerCannotBeStored) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 2) bench.tick();
+  bench.store_failure = "layers/000003.tif: No space left on device";
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("No space left on device"));
+  bench.tick(500);
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+  EXPECT_EQ(bench.count_rows("layers"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND verdict = 'not_stored'"), 1);
+}
+
+TEST(Job, PausesBetweenTwoStepsWithTheRigParkedAndGoesOn) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  EXPECT_TRUE(bench.say(OperatorCommand::pause).accepted);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  EXPECT_EQ(bench.stage.status.traverse.value, 0.0);
+  EXPECT_EQ(bench.stage.ground().size(), 1U);
+  EXPECT_FALSE(bench.say(OperatorCommand::start).accepted);
+  EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.stage.ground().size(), 5U);  // layer 1 was not ground again
+}
+
+TEST(Job, StoresAFrameInHandBeforeItPauses) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::assessing));
+  EXPECT_TRUE(bench.say(OperatorCommand::pause).accepted);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+}
+
+TEST(Job, AbortsAtOnceAndCanBeStartedAgainWhereItWas) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 2) bench.tick();
+  EXPECT_TRUE(bench.say(OperatorCommand::abort).accepted);
+  ASSERT_TRUE(bench.reach(JobState::aborted));
+  EXPECT_GE(bench.stage.count(bridge::StageAction::stop), 1);
+  EXPECT_TRUE(bench.say(OperatorCommand::start).accepted);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("layers"), 5);
+}
+
+TEST(Job, RefusesWhatTheStateForbidsInASentence) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  for (const OperatorCommand command :
+       {OperatorCommand::start, OperatorCommand::resume, OperatorCommand::acknowledge}) {
+    const OperatorReply reply = bench.say(command);
+    EXPECT_FALSE(reply.accepted) << to_string(command);
+    EXPECT_THAT(reply.sentence, HasSubstr("the job is "));
+  }
+}
+
+TEST(Job, ComesToRestWhenTheDaemonIsToldToEnd) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::focusing));
+  EXPECT_TRUE(bench.say(OperatorCommand::shut_down).accepted);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  EXPECT_TRUE(bench.job->at_rest());
+  EXPECT_FALSE(bench.say(OperatorCommand::resume).accepted);
+}
+
+TEST(Job, ClimbsTheLadderUntilAFrameIsGood) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 1) bench.tick();
+  bench.camera.black_frames = 2;  // layer 2 needs no search: its first two attempts
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'too-dark'"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND verdict = 'accepted' AND attempt = 3"), 1);
+  EXPECT_EQ(bench.count_rows("focus_sweeps", "layer = 2"), 1);  // the second rung focuses again
+  EXPECT_TRUE(
+      std::filesystem::exists(bench.settings.plan.sample / "rejected/000002-a01-too-dark.jpg"));
+}
+
+TEST(Job, PausesWhenNoFrameIsGoodEnoughAndKeepsEveryRecord) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 1) bench.tick();
+  bench.camera.black_frames = 1000000;
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND verdict = 'rejected'"), 4);
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+  EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("no frame of layer 2 was good enough"));
+
+  bench.camera.black_frames = 0;
+  EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.stage.ground().size(), 5U);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND verdict = 'accepted' AND attempt = 5"), 1);
+}
+
+TEST(Job, AcceptsTheSharpestWithAFlagWhenConfiguredSo) {
+  JobBench bench;
+  bench.settings.plan.layers = 1;
+  bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
+  bench.settings.ladder.max_attempts = 2;
+  bench.settings.thresholds.minimum_brightness = 0.9;  // nothing is good enough
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "verdict = 'rejected'"), 1);
+  EXPECT_EQ(bench.count_rows("attempts", "verdict = 'accepted_with_flag'"), 1);
+}
+
+}  // namespace
+}  // namespace biotomy::tests

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "acquisition/job/job.hpp"
+#include "tests/acquisition/fake_rig.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+
+/// A job on a fake rig with a clock that only ticks. The sample lies in a folder of its own; the
+/// layer images are not really written unless a test says so.
+struct JobBench {
+  TemporaryFolder folder;
+  FakeStage stage;
+  FakeLines lines;
+  FakeCamera camera{stage};
+  InlineWorker worker;
+  InlineWorker volume_worker;
+  acquisition::OperatorDesk desk;
+  acquisition::StatusBoard board;
+  acquisition::JobSettings settings;
+  acquisition::Surroundings surroundings;
+
+  std::uintmax_t free_bytes = std::uintmax_t{1} << 40U;
+  std::string store_failure;         ///< not empty: writing a layer fails with this
+  std::vector<std::string> written;  ///< names of the layer files, in order
+  std::int64_t in_volume = 0;
+  bool volume_finished = false;
+
+  std::unique_ptr<acquisition::Job> job;
+  std::chrono::steady_clock::time_point now{};
+
+  JobBench();
+
+  /// The daemon starts (again): a new job object on the same rig and sample.
+  void start_daemon(std::uint32_t last_sequence = 0);
+
+  void tick(int times = 1);
+
+  /// Ticks until the job is in the state; false when it does not get there.
+  bool reach(acquisition::JobState state, int ticks = 5000);
+
+  /// Lays the command down, ticks until it is answered.
+  acquisition::OperatorReply say(acquisition::OperatorCommand command);
+
+  /// From the daemon's start to the job's first step.
+  void start_job();
+
+  acquisition::JobState state() const { return job->state(); }
+  std::string alarm() const;
+  std::string events_of_kind(const std::string& kind) const;
+  std::int64_t count_rows(const std::string& table, const std::string& where = "1") const;
+};
+
+}  // namespace biotomy::tests

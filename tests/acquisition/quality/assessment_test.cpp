@@ -1,0 +1,79 @@
+#include "acquisition/quality/assessment.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "acquisition/quality/sharpness.hpp"
+#include "tests/acquisition/fake_rig.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::HasSubstr;
+
+struct Judged {
+  bridge::Frame frame;
+  FrameExpectation expectation;
+
+  Judged() {
+    frame.image = chequered_face(96, 64, 1.0);
+    frame.sequence = 5;
+    expectation = {.width = 96,
+                   .height = 64,
+                   .type = CV_8UC3,
+                   .focus_sharpness = sharpness(frame.image),
+                   .previous_sequence = 4};
+  }
+  Assessment assessment() const { return assess(frame, expectation, {}); }
+};
+
+TEST(Assessment, AcceptsAFrameAsSharpAsTheFocusPeak) {
+  const Assessment good = Judged().assessment();
+  EXPECT_EQ(good.verdict, Verdict::accepted);
+  EXPECT_NEAR(good.sharpness_ratio, 1.0, 1e-9);
+  EXPECT_EQ(good.metrics.size(), 4U);
+}
+
+TEST(Assessment, RejectsABlurredFrameAndSaysHowMuch) {
+  Judged judged;
+  judged.frame.image = chequered_face(96, 64, 2.5);
+  const Assessment blurred = judged.assessment();
+  EXPECT_EQ(blurred.verdict, Verdict::rejected);
+  EXPECT_EQ(blurred.slug, "blurred");
+  EXPECT_THAT(blurred.reason, HasSubstr("of the focus peak's, below 0.700"));
+}
+
+TEST(Assessment, RejectsABlackFrame) {
+  Judged judged;
+  judged.frame.image.setTo(cv::Scalar::all(2));
+  EXPECT_EQ(judged.assessment().slug, "too-dark");
+}
+
+TEST(Assessment, RejectsAFrameWithAColourAtFullScale) {
+  Judged judged;
+  judged.frame.image(cv::Rect(0, 0, 48, 64)).setTo(cv::Scalar(255, 90, 90));  // red alone
+  const Assessment clipped = judged.assessment();
+  EXPECT_EQ(clipped.slug, "clipped");
+  EXPECT_THAT(clipped.reason, HasSubstr("0.5000 of the pixels"));
+}
+
+TEST(Assessment, RejectsAFrameOfAnEarlierMoment) {
+  Judged judged;
+  judged.frame.sequence = 4;
+  EXPECT_EQ(judged.assessment().slug, "stale");
+}
+
+TEST(Assessment, RejectsAFrameOfAnotherSizeOrDepth) {
+  Judged judged;
+  judged.expectation.width = 97;
+  EXPECT_EQ(judged.assessment().slug, "wrong-size");
+  EXPECT_THAT(judged.assessment().reason, HasSubstr("96 × 64 of 8 bits"));
+  judged.expectation.width = 96;
+  judged.expectation.type = CV_16UC3;
+  EXPECT_EQ(judged.assessment().slug, "wrong-size");
+}
+
+}  // namespace
+}  // namespace biotomy::tests

@@ -1,0 +1,134 @@
+#include "acquisition/records/layer_journal.hpp"
+
+#include <fstream>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/records/journal_error.hpp"
+#include "acquisition/records/journal_reader.hpp"
+#include "acquisition/records/journal_schema.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr const char* kAt = "2026-11-22T03:04:05.678Z";
+
+AttemptRow attempt(std::int64_t layer, int number, Verdict verdict) {
+  AttemptRow row;
+  row.layer = layer;
+  row.attempt = number;
+  row.taken_at = kAt;
+  row.assessment.verdict = verdict;
+  row.assessment.slug = "good";
+  row.assessment.reason = "every metric is within its limit";
+  row.assessment.metrics = {{"sharpness_ratio", 0.93, 0.7, true}};
+  row.file = "layers/000001.tif";
+  row.sha256 = "abc";
+  return row;
+}
+
+struct LayerJournalTest : testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder.path() / "journal.sqlite";
+};
+
+TEST_F(LayerJournalTest, RemembersAcrossARestart) {
+  {
+    LayerJournal journal(path);
+    journal.begin_grind({.sequence = 17,
+                         .layer = 1,
+                         .target = {1000.0},
+                         .ground_before = {900.0},
+                         .count_before = 3,
+                         .finished = false},
+                        kAt);
+    journal.end_grind(17, bridge::CommandResult::done, {}, kAt);
+    journal.record_focus({.layer = 1,
+                          .why = "first",
+                          .column = {612.5},
+                          .sharpness = 0.4,
+                          .found = true,
+                          .points = {{{600.0}, 0.3}}},
+                         kAt);
+    journal.record_attempt(attempt(1, 1, Verdict::rejected));
+    journal.commit_layer(attempt(1, 2, Verdict::accepted), 1234, kAt);
+    journal.record_attempt(attempt(2, 1, Verdict::rejected));
+  }
+  const JournalSummary summary = LayerJournal(path).summary();
+  EXPECT_EQ(summary.last_committed, 1);
+  EXPECT_EQ(summary.last_attempt, 1);
+  EXPECT_EQ(summary.last_sequence, 17U);
+  EXPECT_EQ(summary.last_layer_bytes, 1234U);
+  ASSERT_TRUE(summary.last_grind);
+  EXPECT_TRUE(summary.last_grind->finished);
+  EXPECT_EQ(summary.last_grind->count_before, 3);
+  ASSERT_TRUE(summary.last_focus);
+  EXPECT_EQ(summary.last_focus->column.value, 612.5);
+}
+
+TEST_F(LayerJournalTest, IsReadWhileItIsWritten) {
+  LayerJournal journal(path);
+  const JournalReader reader(path);
+  EXPECT_EQ(reader.committed_count(), 0);
+  journal.commit_layer(attempt(1, 1, Verdict::accepted_with_flag), 99, kAt);
+  const std::vector<LayerRow> rows = reader.committed_layers(1, 10);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows[0].flagged);
+  EXPECT_EQ(rows[0].bytes, 99U);
+  EXPECT_EQ(rows[0].committed_at, kAt);
+  ASSERT_EQ(rows[0].metrics.size(), 1U);
+  EXPECT_EQ(rows[0].metrics[0].name, "sharpness_ratio");
+}
+
+TEST_F(LayerJournalTest, CommitsALayerOnlyOnce) {
+  LayerJournal journal(path);
+  journal.commit_layer(attempt(1, 1, Verdict::accepted), 99, kAt);
+  EXPECT_THROW(journal.commit_layer(attempt(1, 2, Verdict::accepted), 99, kAt), JournalError);
+  // Both rows or neither: the second attempt is not there.
+  SQLite::Database database(path.string());
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM attempts").getInt(), 1);
+}
+
+TEST_F(LayerJournalTest, KeepsOneNumberForOneGrind) {
+  LayerJournal journal(path);
+  const GrindRow grind{.sequence = 5,
+                       .layer = 1,
+                       .target = {1.0},
+                       .ground_before = {0.0},
+                       .count_before = 0,
+                       .finished = false};
+  journal.begin_grind(grind, kAt);
+  EXPECT_THROW(journal.begin_grind(grind, kAt), JournalError);
+}
+
+TEST_F(LayerJournalTest, IsWrittenAheadAndFullySynchronous) {
+  const LayerJournal journal(path);
+  SQLite::Database database(path.string());
+  EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
+  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), journal_version());
+}
+
+TEST_F(LayerJournalTest, RefusesAJournalOfANewerProgram) {
+  {
+    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    database.exec("PRAGMA user_version = 99");
+  }
+  EXPECT_THAT([&] { const LayerJournal journal(path); },
+              ThrowsMessage<JournalError>(HasSubstr("use the newer program")));
+}
+
+TEST_F(LayerJournalTest, RefusesAFileThatIsNoJournal) {
+  std::ofstream(path) << std::string(5000, 'x');
+  EXPECT_THAT([&] { const LayerJournal journal(path); },
+              ThrowsMessage<JournalError>(HasSubstr("not a database")));
+}
+
+}  // namespace
+}  // namespace biotomy::tests

@@ -1,0 +1,100 @@
+#include "acquisition/service/configuration.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/service/configuration_reference.hpp"
+#include "firmware_bridge/wire/configuration_error.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+auto refuses(const std::string& part) {
+  return ThrowsMessage<bridge::ConfigurationError>(HasSubstr(part));
+}
+
+/// The smallest configuration with one text in it replaced.
+auto changed(const std::string& from, const std::string& to) {
+  std::string text = smallest_configuration();
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  return [text] { parse_configuration(text, "rig.toml"); };
+}
+
+TEST(Configuration, TakesTheSmallestFileWithEveryDefault) {
+  const Configuration read = parse_configuration(smallest_configuration(), "rig.toml");
+  EXPECT_EQ(read.job.plan.layers, 1000);
+  EXPECT_EQ(read.job.plan.name, "knee-042");
+  EXPECT_EQ(read.job.plan.layer_thickness.value, 20.0);
+  EXPECT_EQ(read.stage.endpoint, "tcp://127.0.0.1:1502");
+  EXPECT_EQ(read.service.host, "127.0.0.1");
+  EXPECT_EQ(read.service.port, 8080);
+  EXPECT_EQ(read.service.tick, std::chrono::milliseconds(20));
+  EXPECT_EQ(read.job.ladder.exhausted, LadderSettings::Exhausted::pause);
+}
+
+TEST(Configuration, RefusesAnUnknownKeyWithTheNearestKnownOne) {
+  EXPECT_THAT(changed("layers = 1000", "layers = 1000\nspindel_rpm = 100"),
+              refuses("job.spindel_rpm: unknown key; did you mean \"spindle_rpm\"?"));
+}
+
+TEST(Configuration, RefusesWhatIsMissingOrOutOfRange) {
+  EXPECT_THAT(changed("layers = 1000\n", ""), refuses("job.layers: missing"));
+  EXPECT_THAT(changed("layers = 1000", "layers = 0"), refuses("job.layers: 0 is out of range"));
+  EXPECT_THAT(changed("layers = 1000", "layers = \"many\""), refuses("expected an integer"));
+  EXPECT_THAT(changed("[10.0, 10.0]", "[10.0]"), refuses("an array of 2 numbers"));
+}
+
+TEST(Configuration, WantsTheLinesOfTheGpiodBackend) {
+  EXPECT_THAT(changed("[lines]\nendpoint = \"unix://rig.sock\"", "[lines]\nbackend = \"gpiod\""),
+              refuses("lines.estop.chip: missing"));
+}
+
+TEST(Configuration, WantsTheSocketOfTheSocketBackend) {
+  EXPECT_THAT(changed("[camera]\nendpoint = \"unix://rig.sock\"", "[camera]"),
+              refuses("camera.endpoint: missing"));
+  EXPECT_THAT(changed("[camera]\nendpoint = \"unix://rig.sock\"",
+                      "[camera]\nendpoint = \"tcp://1.2.3.4:5\""),
+              refuses("expected \"unix://path\""));
+}
+
+TEST(Configuration, RefusesACodecThatTheStoreDoesNotKnow) {
+  EXPECT_THAT(changed("[focus]", "[store]\ncodec = \"gif\"\n[focus]"), refuses("store.codec"));
+}
+
+TEST(Configuration, FindsRelativePathsBesideItself) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "rig.toml") << smallest_configuration();
+  const Configuration read = read_configuration(folder.path() / "rig.toml");
+  EXPECT_EQ(read.job.plan.sample, folder.path() / "knee-042");
+  EXPECT_EQ(read.service.token_file, folder.path() / "biotomy.token");
+  EXPECT_EQ(read.camera.endpoint, (folder.path() / "rig.sock").string());
+}
+
+TEST(Configuration, IsDescribedByItsPageWordForWord) {
+  std::ifstream file(BIOTOMY_CONFIGURATION_PAGE);
+  ASSERT_TRUE(file) << "there is no " BIOTOMY_CONFIGURATION_PAGE;
+  std::ostringstream page;
+  page << file.rdbuf();
+  EXPECT_EQ(page.str(), configuration_reference())
+      << "write it anew: biotomyd --configuration-reference > docs/configuration.md";
+}
+
+TEST(Configuration, TellsWhatEveryKeyMeans) {
+  for (const bridge::DeclaredKey& key : known_keys()) {
+    EXPECT_FALSE(key.description.empty()) << key.table << "." << key.name;
+  }
+}
+
+}  // namespace
+}  // namespace biotomy::tests
