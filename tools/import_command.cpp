@@ -18,6 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kInterleaved = "interleaved";
+constexpr const char* kPlanar = "planar";
+const reconstruct::VolumeLayout kDefaultLayout;
+
+/// The command line says x, y, z; the layout z, y, x.
+std::vector<int> xyz_of(const std::array<int, 3>& zyx) {
+  return {zyx.rbegin(), zyx.rend()};
+}
+std::array<int, 3> zyx_of(const std::vector<int>& xyz) {
+  return {xyz[2], xyz[1], xyz[0]};
+}
+
 struct Options {
   std::vector<std::string> inputs;
   std::vector<double> spacing;
@@ -25,22 +37,15 @@ struct Options {
   std::string output;
   std::string name;
   std::string notes;
-  std::vector<int> chunk;
-  std::vector<int> shard;
-  std::string codec;
-  std::string colours = "interleaved";
+  std::vector<int> chunk = xyz_of(kDefaultLayout.chunk);
+  std::vector<int> shard = xyz_of(kDefaultLayout.shard);
+  std::string codec = kDefaultLayout.codec;
+  std::string colours = kDefaultLayout.interleaved ? kInterleaved : kPlanar;
   std::string compression = "zstd";
 };
 
 reconstruct::Vector3 vector_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
-}
-
-/// The command line says x, y, z; the layout z, y, x.
-void set_sizes(std::array<int, 3>& sizes, const std::vector<int>& xyz) {
-  if (!xyz.empty()) {
-    sizes = {xyz[2], xyz[1], xyz[0]};
-  }
 }
 
 std::string now_utc() {
@@ -77,12 +82,8 @@ reconstruct::ImportRequest request_of(const Options& options) {
   request.layer_format.compression = options.compression == "zstd"
                                          ? reconstruct::LayerCompression::zstd
                                          : reconstruct::LayerCompression::deflate;
-  set_sizes(request.layout.chunk, options.chunk);
-  set_sizes(request.layout.shard, options.shard);
-  request.layout.interleaved = options.colours == "interleaved";
-  if (!options.codec.empty()) {
-    request.layout.codec = options.codec;
-  }
+  request.layout = {zyx_of(options.chunk), zyx_of(options.shard), options.colours == kInterleaved,
+                    options.codec};
   reconstruct::check_layout(request.layout);
   return request;
 }
@@ -121,24 +122,27 @@ void add_import_command(CLI::App& app) {
   command->add_option("--notes", options->notes, "Anything to be remembered with the sample");
   command
       ->add_option("--layer-compression", options->compression,
-                   "Of the layer images: zstd or deflate [zstd]")
-      ->check(CLI::IsMember({"zstd", "deflate"}));
+                   "Of the layer images: zstd or deflate")
+      ->check(CLI::IsMember({"zstd", "deflate"}))
+      ->capture_default_str();
   command
       ->add_option("--chunk", options->chunk,
-                   "Voxels that are compressed together in the volume: X,Y,Z [32,32,32]")
+                   "Voxels that are compressed together in the volume: X,Y,Z")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->capture_default_str();
   command
       ->add_option("--shard", options->shard,
-                   "Voxels in one file of the volume, a multiple of the chunk: X,Y,Z "
-                   "[1024,1024,32]")
+                   "Voxels in one file of the volume, a multiple of the chunk: X,Y,Z")
       ->delimiter(',')
-      ->expected(3);
-  command->add_option("--codec", options->codec, "Of the volume's chunks [blosc-lz4-bitshuffle]");
+      ->expected(3)
+      ->capture_default_str();
+  command->add_option("--codec", options->codec, "Of the volume's chunks")->capture_default_str();
   command
       ->add_option("--colours", options->colours,
-                   "In the volume's chunks: interleaved, voxel by voxel, or planar [interleaved]")
-      ->check(CLI::IsMember({"interleaved", "planar"}));
+                   "In the volume's chunks: interleaved, voxel by voxel, or planar")
+      ->check(CLI::IsMember({kInterleaved, kPlanar}))
+      ->capture_default_str();
   command->callback([options] { run(*options); });
 }
 

@@ -21,7 +21,7 @@ int fail(int code, const char* what) {
 int main(int argc, char** argv) {
   CLI::App app{"Turns photographs of a ground block into a volume and cuts it along any plane."};
   app.set_version_flag("--version", BIOTOMY_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   biotomy::tools::add_import_command(app);
   biotomy::tools::add_info_command(app);
   biotomy::tools::add_section_command(app);
@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
   biotomy::tools::add_rig_command(app);
   try {
     app.parse(argc, argv);
+    // Asked here and not by CLI11, which would say this of a misspelt command too.
+    if (app.get_subcommands().empty()) return fail(kUsage, "say what to do; see biotomy --help");
   } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);
   } catch (const CLI::ParseError& error) {

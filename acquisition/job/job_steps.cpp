@@ -91,7 +91,9 @@ std::optional<JobEvent> Job::poll_finishing(TimePoint now) {
   if (volume.finished) return JobEvent::step_done;
   // The layers are safe; a volume that fails does not make the job fail.
   if (!volume.failure.empty() || now - volume_moved_ > settings_.limits.volume_limit) {
-    log_error("volume", "it is not complete; make it anew with biotomy rebuild");
+    log_error(
+        "volume",
+        "it is not complete; the layers are safe: biotomy import SAMPLE/layers makes a new one");
     note("alarm",
          "the volume is not complete: " +
              (volume.failure.empty() ? std::string("it does not grow any more") : volume.failure));

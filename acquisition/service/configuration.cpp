@@ -1,5 +1,8 @@
 #include "acquisition/service/configuration.hpp"
 
+#include "acquisition/service/configuration_keys.hpp"
+#include "acquisition/service/safety_section.hpp"
+#include "acquisition/service/store_section.hpp"
 #include "firmware_bridge/wire/checked_table.hpp"
 #include "firmware_bridge/wire/endpoint.hpp"
 #include "reconstruct/errors.hpp"
@@ -14,67 +17,6 @@ using bridge::Micrometres;
 using bridge::NumberKey;
 using bridge::TextKey;
 using std::chrono::milliseconds;
-
-constexpr double kMetre = 1e6;  // in micrometres
-
-/// A duration in the file is an integer of milliseconds; its fallback is the struct's own default.
-milliseconds duration(const CheckedTable& table, const char* name, milliseconds fallback,
-                      const char* description, int minimum = 1, int maximum = 86400000) {
-  return milliseconds(table.get(IntegerKey{.name = name,
-                                           .fallback = fallback.count(),
-                                           .unit = "ms",
-                                           .minimum = minimum,
-                                           .maximum = maximum,
-                                           .description = description}));
-}
-
-Micrometres position(const CheckedTable& table, const char* name,
-                     std::optional<Micrometres> fallback, const char* description) {
-  return {table.get(NumberKey{.name = name,
-                              .fallback = fallback ? std::optional(fallback->value) : std::nullopt,
-                              .unit = "µm",
-                              .minimum = -kMetre,
-                              .maximum = kMetre,
-                              .description = description})};
-}
-
-Micrometres length(const CheckedTable& table, const char* name, std::optional<Micrometres> fallback,
-                   const char* description, double minimum = 0.001) {
-  return {table.get(NumberKey{.name = name,
-                              .fallback = fallback ? std::optional(fallback->value) : std::nullopt,
-                              .unit = "µm",
-                              .minimum = minimum,
-                              .maximum = kMetre,
-                              .description = description})};
-}
-
-int count(const CheckedTable& table, const char* name, int fallback, int minimum, int maximum,
-          const char* description) {
-  return static_cast<int>(table.get(IntegerKey{.name = name,
-                                               .fallback = fallback,
-                                               .minimum = minimum,
-                                               .maximum = maximum,
-                                               .description = description}));
-}
-
-double number(const CheckedTable& table, const char* name, double fallback, const char* unit,
-              double minimum, double maximum, const char* description) {
-  return table.get(NumberKey{.name = name,
-                             .fallback = fallback,
-                             .unit = unit,
-                             .minimum = minimum,
-                             .maximum = maximum,
-                             .description = description});
-}
-
-std::string optional_text(const CheckedTable& table, const char* name, const char* description,
-                          const std::string& fallback = "") {
-  return table.get(TextKey{.name = name,
-                           .fallback = fallback,
-                           .choices = {},
-                           .may_be_empty = true,
-                           .description = description});
-}
 
 StageConfiguration read_stage(const CheckedTable& table) {
   StageConfiguration stage;
@@ -284,91 +226,6 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
   thresholds.maximum_clipped_fraction =
       number(table, "maximum_clipped_fraction", thresholds.maximum_clipped_fraction, "", 0.0, 1.0,
              "part of the pixels that may be at full scale in a colour");
-}
-
-StorePlan read_store(const CheckedTable& table) {
-  StorePlan store;
-  const std::string compression = table.get(TextKey{.name = "compression",
-                                                    .fallback = "zstd",
-                                                    .choices = {"zstd", "deflate"},
-                                                    .description = "of the layer images"});
-  store.layer_format.compression = compression == "deflate" ? reconstruct::LayerCompression::deflate
-                                                            : reconstruct::LayerCompression::zstd;
-  store.layer_format.level =
-      count(table, "level", store.layer_format.level, 1, 9, "of the compression");
-  store.volume_layout.codec =
-      optional_text(table, "codec", "of the volume's chunks", store.volume_layout.codec);
-  try {
-    reconstruct::check_layout(store.volume_layout);
-  } catch (const reconstruct::InvalidRequest& error) {
-    table.reject("codec", error.what());
-  }
-  store.rejected_frames = count(table, "rejected_frames", store.rejected_frames, 1, 1000000,
-                                "pictures of rejected frames that are kept; the oldest go");
-  store.rejected_width_px =
-      count(table, "rejected_width_px", store.rejected_width_px, 16, 10000, "their longer side");
-  return store;
-}
-
-SafetyLimits read_safety(const CheckedTable& table) {
-  SafetyLimits safety;
-  safety.link_lost = duration(table, "link_lost_ms", safety.link_lost,
-                              "without an answer of the controller for so long, the rig stops");
-  safety.controller_silent =
-      duration(table, "controller_silent_ms", safety.controller_silent,
-               "with the controller's heartbeat unchanged for so long, the rig stops");
-  safety.require_watchdog =
-      table.get(FlagKey{.name = "require_watchdog",
-                        .fallback = safety.require_watchdog,
-                        .description = "refuse a controller that does not watch the daemon"});
-  safety.position_tolerance = length(table, "position_tolerance_um", safety.position_tolerance,
-                                     "an axis further from where it should be stops the rig");
-  safety.block_temperature_minimum_c =
-      number(table, "block_temperature_minimum_c", safety.block_temperature_minimum_c, "°C",
-             -273.15, 200.0, "a colder block stops the rig");
-  safety.block_temperature_maximum_c =
-      number(table, "block_temperature_maximum_c", safety.block_temperature_maximum_c, "°C",
-             -273.15, 200.0, "a warmer block stops the rig");
-  if (safety.block_temperature_minimum_c >= safety.block_temperature_maximum_c) {
-    table.reject("block_temperature_minimum_c", "must be below block_temperature_maximum_c");
-  }
-  safety.temperature_delay = duration(table, "temperature_delay_ms", safety.temperature_delay,
-                                      "outside its window for so long", 0);
-  safety.disk_reserve_layers =
-      count(table, "disk_reserve_layers", safety.disk_reserve_layers, 1, 1000000,
-            "with room for fewer layers on the disk, the rig stops");
-  safety.command_start = duration(table, "command_start_ms", safety.command_start,
-                                  "within so long the controller starts a command");
-  safety.read_back =
-      duration(table, "read_back_ms", safety.read_back,
-               "so long the command number is read back before an unanswered command counts as "
-               "not received");
-  safety.command_issues = count(table, "command_issues", safety.command_issues, 1, 10,
-                                "a command is handed over so often at most");
-  safety.preflight_limit =
-      duration(table, "preflight_limit_ms", safety.preflight_limit, "limit of the step");
-  safety.recovery_limit =
-      duration(table, "recovery_limit_ms", safety.recovery_limit, "limit of the step");
-  safety.home_limit = duration(table, "home_limit_ms", safety.home_limit, "limit of the step");
-  safety.grind_limit = duration(table, "grind_limit_ms", safety.grind_limit, "limit of the step");
-  safety.retract_limit =
-      duration(table, "retract_limit_ms", safety.retract_limit, "limit of the step");
-  safety.clear_limit =
-      duration(table, "clear_limit_ms", safety.clear_limit, "limit of the step, beyond clear_ms");
-  safety.focus_limit = duration(table, "focus_limit_ms", safety.focus_limit, "limit of the step");
-  safety.capture_limit = duration(table, "capture_limit_ms", safety.capture_limit,
-                                  "limit of the step, beyond twice capture_timeout_ms");
-  safety.assess_limit =
-      duration(table, "assess_limit_ms", safety.assess_limit, "limit of the step");
-  safety.store_limit = duration(table, "store_limit_ms", safety.store_limit, "limit of the step");
-  safety.park_limit =
-      duration(table, "park_limit_ms", safety.park_limit, "limit of stopping and parking the rig");
-  safety.reset_limit = duration(table, "reset_limit_ms", safety.reset_limit,
-                                "limit of resetting the controller's fault");
-  safety.volume_limit =
-      duration(table, "volume_limit_ms", safety.volume_limit,
-               "at the end of a job, a volume that does not grow for so long is given up");
-  return safety;
 }
 
 ServiceConfiguration read_service(const CheckedTable& table) {

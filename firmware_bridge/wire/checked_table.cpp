@@ -144,6 +144,19 @@ struct CheckedTable::Document {
     return names;
   }
 
+  /// The names that stand in the table at `path` and that nobody has asked for so far.
+  std::vector<std::string> names_not_asked_for(const std::string& path) const {
+    const std::vector<std::string> known = names_known_in(path);
+    std::vector<std::string> names;
+    const toml::table* table = table_at(path);
+    if (table == nullptr) return names;
+    for (const auto& [key, node] : *table) {
+      const std::string name(key.str());
+      if (std::find(known.begin(), known.end(), name) == known.end()) names.push_back(name);
+    }
+    return names;
+  }
+
   void refuse_unknown(const toml::table& table, const std::string& path) const {
     const std::vector<std::string> known = names_known_in(path);
     for (const auto& [key, node] : table) {
@@ -163,7 +176,10 @@ struct CheckedTable::Document {
                          const std::string& what_is_expected) const {
     const toml::node* node = node_at(path, name);
     if (node == nullptr && !has_fallback && !is_reference) {
-      reject(table_at(path), joined(path, name), "missing; " + what_is_expected);
+      const std::string nearest = nearest_name(name, names_not_asked_for(path));
+      reject(table_at(path), joined(path, name),
+             "missing; " + what_is_expected +
+                 (nearest.empty() ? "" : "; is it misspelt as " + quoted(nearest) + "?"));
     }
     return node;
   }

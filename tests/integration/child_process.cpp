@@ -1,11 +1,5 @@
 #include "tests/integration/child_process.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -13,6 +7,12 @@
 #include <iterator>
 #include <stdexcept>
 #include <thread>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace biotomy::tests {
 
@@ -86,7 +86,9 @@ std::string ChildProcess::wait_for(const std::string& text, std::chrono::seconds
   }
 }
 
-void ChildProcess::send(int signal) const { kill(pid_, signal); }
+void ChildProcess::send(int signal) const {
+  kill(pid_, signal);
+}
 
 Outcome ChildProcess::wait(std::chrono::seconds limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;

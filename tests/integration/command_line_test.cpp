@@ -1,11 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "tests/integration/child_process.hpp"
 #include "tests/temporary_folder.hpp"
@@ -71,8 +71,8 @@ TEST_F(CommandLine, RefusesAnUnknownCommand) {
 
 TEST_F(CommandLine, ASectionAlongALayerIsThatLayer) {
   const fs::path picture = folder_.path() / "layer.png";
-  const Outcome outcome = biotomy({"section", sample(), "--normal", "0,0,1", "--through",
-                                   "0,0,32", "--unit", "voxel", "-o", picture});
+  const Outcome outcome = biotomy({"section", sample(), "--normal", "0,0,1", "--through", "0,0,32",
+                                   "--unit", "voxel", "-o", picture});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const cv::Mat expected = cv::imread(folder_.path() / "images" / "face33.png");
   const cv::Mat image = cv::imread(picture);
@@ -116,9 +116,9 @@ TEST_F(CommandLine, LeavesASampleThatIsAlreadyThereAsItIs) {
 
 TEST_F(CommandLine, SaysThatAPlaneMisses) {
   const fs::path picture = folder_.path() / "none.png";
-  expect_one_line(biotomy({"section", sample(), "--normal", "0,0,1", "--through", "0,0,5000",
-                           "-o", picture}),
-                  kFailure, "misses");
+  expect_one_line(
+      biotomy({"section", sample(), "--normal", "0,0,1", "--through", "0,0,5000", "-o", picture}),
+      kFailure, "misses");
   EXPECT_FALSE(fs::exists(picture));
 }
 
@@ -143,16 +143,32 @@ TEST_F(CommandLine, SaysThatNoDaemonAnswers) {
                   "127.0.0.1:9");
 }
 
+TEST_F(CommandLine, AsksForACommand) {
+  expect_one_line(biotomy({}), kUsage, "--help");
+}
+
 TEST_F(CommandLine, TheDaemonRefusesAnUnknownKeyAndNamesTheNearest) {
   const fs::path config = folder_.path() / "rig.toml";
-  std::ofstream(config) << "[job]\nsample = \"s\"\nlayer_thicknes_um = 20\n";
-  expect_one_line(run({BIOTOMY_DAEMON, "--config", config}, folder_.path()), kUsage,
-                  "layer_thickness_um");
+  std::ofstream(config) << "[job]\nsample = \"s\"\nlayers = 3\nlayer_thickness_um = 20\n"
+                           "pixel_um = [10, 10]\nfirst_face_um = 0\nsetle_ms = 5\n"
+                           "[stage]\nendpoint = \"tcp://127.0.0.1:1502\"\n"
+                           "[lines]\nendpoint = \"unix://s\"\n[camera]\nendpoint = \"unix://s\"\n"
+                           "[focus]\nstart_um = 0\n";
+  expect_one_line(run({BIOTOMY_DAEMON, "--config", config}, folder_.path()), kUsage, "settle_ms");
+}
+
+TEST_F(CommandLine, TheDaemonSuspectsAMisspeltKeyBehindAMissingOne) {
+  const fs::path config = folder_.path() / "rig.toml";
+  std::ofstream(config) << "[job]\nsample = \"s\"\nlayers = 3\nlayer_thicknes_um = 20\n";
+  const Outcome outcome = run({BIOTOMY_DAEMON, "--config", config}, folder_.path());
+  expect_one_line(outcome, kUsage, "layer_thickness_um");
+  expect_one_line(outcome, kUsage, "layer_thicknes_um");
 }
 
 TEST_F(CommandLine, TheTwinRefusesAnUnknownKeyAndNamesTheNearest) {
   const fs::path config = folder_.path() / "sim.toml";
-  std::ofstream(config) << "[rig]\ntime_scal = 20\n";
+  std::ofstream(config) << "time_scal = 20\n[stage]\nregister_map = \"r\"\n"
+                           "[rig]\nsocket = \"unix://s\"\n";
   expect_one_line(run({BIOTOMY_TWIN, "--config", config}, folder_.path()), kUsage, "time_scale");
 }
 

@@ -2,8 +2,9 @@
 
 #include <csignal>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include <nlohmann/json.hpp>
 
 #include "firmware_bridge/wire/checked_table.hpp"
 #include "sim/service/configuration.hpp"
@@ -50,10 +51,9 @@ SimulatedRig::SimulatedRig(const RigPlan& plan) : plan_(plan) {
                  "[camera]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "exposure_us = 10000\n"
                  "[job]\nsample = \"sample\"\nlayers = " +
-                 std::to_string(plan.layers) +
-                 "\nlayer_thickness_um = " + std::to_string(plan.layer_thickness_um) +
-                 "\npixel_um = [" + std::to_string(plan.pixel_um) + ", " +
-                 std::to_string(plan.pixel_um) +
+                 std::to_string(plan.layers) + "\nlayer_thickness_um = " +
+                 std::to_string(plan.layer_thickness_um) + "\npixel_um = [" +
+                 std::to_string(plan.pixel_um) + ", " + std::to_string(plan.pixel_um) +
                  "]\nfirst_face_um = " + std::to_string(kFirstFaceUm) +
                  "\nclear_ms = 1500\nsettle_ms = 5\nlamp_warm_up_ms = 5\n"
                  "[focus]\nstart_um = " +

@@ -1,13 +1,13 @@
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <thread>
+
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <thread>
 
 #include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
@@ -165,8 +165,8 @@ TEST_F(WholeJob, GoesOnAfterTheDaemonWasKilledWithoutGrindingALayerTwice) {
   double deepest = -1e9;
   int passes = 0;
   for (const nlohmann::json& pass : rig_.witnessed("grind_pass")) {
-    EXPECT_GT(pass.at("position_um"), deepest) << pass.dump();
-    deepest = pass.at("position_um");
+    EXPECT_GT(pass.at("target_um"), deepest) << pass.dump();
+    deepest = pass.at("target_um");
     ++passes;
   }
   EXPECT_EQ(passes, rig_.plan().layers);

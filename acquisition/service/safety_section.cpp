@@ -1,0 +1,71 @@
+#include "acquisition/service/safety_section.hpp"
+
+#include "acquisition/service/configuration_keys.hpp"
+
+namespace biotomy::acquisition {
+
+using bridge::CheckedTable;
+using bridge::FlagKey;
+
+SafetyLimits read_safety(const CheckedTable& table) {
+  SafetyLimits safety;
+  safety.link_lost = duration(table, "link_lost_ms", safety.link_lost,
+                              "without an answer of the controller for so long, the rig stops");
+  safety.controller_silent =
+      duration(table, "controller_silent_ms", safety.controller_silent,
+               "with the controller's heartbeat unchanged for so long, the rig stops");
+  safety.require_watchdog =
+      table.get(FlagKey{.name = "require_watchdog",
+                        .fallback = safety.require_watchdog,
+                        .description = "refuse a controller that does not watch the daemon"});
+  safety.position_tolerance = length(table, "position_tolerance_um", safety.position_tolerance,
+                                     "an axis further from where it should be stops the rig");
+  safety.block_temperature_minimum_c =
+      number(table, "block_temperature_minimum_c", safety.block_temperature_minimum_c, "°C",
+             -273.15, 200.0, "a colder block stops the rig");
+  safety.block_temperature_maximum_c =
+      number(table, "block_temperature_maximum_c", safety.block_temperature_maximum_c, "°C",
+             -273.15, 200.0, "a warmer block stops the rig");
+  if (safety.block_temperature_minimum_c >= safety.block_temperature_maximum_c) {
+    table.reject("block_temperature_minimum_c", "must be below block_temperature_maximum_c");
+  }
+  safety.temperature_delay = duration(table, "temperature_delay_ms", safety.temperature_delay,
+                                      "outside its window for so long", 0);
+  safety.disk_reserve_layers =
+      count(table, "disk_reserve_layers", safety.disk_reserve_layers, 1, 1000000,
+            "with room for fewer layers on the disk, the rig stops");
+  safety.command_start = duration(table, "command_start_ms", safety.command_start,
+                                  "within so long the controller starts a command");
+  safety.read_back =
+      duration(table, "read_back_ms", safety.read_back,
+               "so long the command number is read back before an unanswered command counts as "
+               "not received");
+  safety.command_issues = count(table, "command_issues", safety.command_issues, 1, 10,
+                                "a command is handed over so often at most");
+  safety.preflight_limit =
+      duration(table, "preflight_limit_ms", safety.preflight_limit, "limit of the step");
+  safety.recovery_limit =
+      duration(table, "recovery_limit_ms", safety.recovery_limit, "limit of the step");
+  safety.home_limit = duration(table, "home_limit_ms", safety.home_limit, "limit of the step");
+  safety.grind_limit = duration(table, "grind_limit_ms", safety.grind_limit, "limit of the step");
+  safety.retract_limit =
+      duration(table, "retract_limit_ms", safety.retract_limit, "limit of the step");
+  safety.clear_limit =
+      duration(table, "clear_limit_ms", safety.clear_limit, "limit of the step, beyond clear_ms");
+  safety.focus_limit = duration(table, "focus_limit_ms", safety.focus_limit, "limit of the step");
+  safety.capture_limit = duration(table, "capture_limit_ms", safety.capture_limit,
+                                  "limit of the step, beyond twice capture_timeout_ms");
+  safety.assess_limit =
+      duration(table, "assess_limit_ms", safety.assess_limit, "limit of the step");
+  safety.store_limit = duration(table, "store_limit_ms", safety.store_limit, "limit of the step");
+  safety.park_limit =
+      duration(table, "park_limit_ms", safety.park_limit, "limit of stopping and parking the rig");
+  safety.reset_limit = duration(table, "reset_limit_ms", safety.reset_limit,
+                                "limit of resetting the controller's fault");
+  safety.volume_limit =
+      duration(table, "volume_limit_ms", safety.volume_limit,
+               "at the end of a job, a volume that does not grow for so long is given up");
+  return safety;
+}
+
+}  // namespace biotomy::acquisition
