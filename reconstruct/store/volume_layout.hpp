@@ -12,7 +12,7 @@ struct VolumeLayout {
   std::array<int, 3> shard{32, 1024, 1024};  ///< each a multiple of the chunk's
   bool interleaved =
       true;  ///< colours stored voxel by voxel (codec `transpose`), not plane by plane
-  std::string codec = "blosc-lz4-bitshuffle";  ///< a name that `codec_chain` knows
+  std::string codec = "blosc-lz4-noshuffle";  ///< a name that `codec_chain` knows
 
   friend bool operator==(const VolumeLayout&, const VolumeLayout&) = default;
 };

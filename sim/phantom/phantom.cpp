@@ -81,7 +81,7 @@ class Phantom::Brush {
     paint_bone(x_um, o.tibia, o, cloud, grain, paint);
     paint_bone(x_um, o.patella, o, cloud, grain, paint);
     paint_bone(x_um, o.fibula, o, cloud, grain, paint);
-    paint.colour = mixed(casting, paint.colour, specimen);
+    paint.colour = within_levels(mixed(casting, paint.colour, specimen));
     if (specimen < 0.5F) {
       paint.tissue = Tissue::casting;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -21,6 +22,12 @@ constexpr Colour operator*(float factor, const Colour& c) {
 constexpr Colour mixed(const Colour& a, const Colour& b, float share_of_b) {
   return {a.r + share_of_b * (b.r - a.r), a.g + share_of_b * (b.g - a.g),
           a.b + share_of_b * (b.b - a.b)};
+}
+
+/// The brightest textures would leave the levels of a photograph.
+constexpr Colour within_levels(const Colour& c) {
+  return {std::clamp(c.r, 0.0F, 255.0F), std::clamp(c.g, 0.0F, 255.0F),
+          std::clamp(c.b, 0.0F, 255.0F)};
 }
 
 /// What a point of the phantom is made of.
@@ -46,7 +53,7 @@ enum class Tissue {
 /// The middle colour of each tissue, before its texture.
 inline constexpr std::array<Colour, 16> kTissueColours{{
     {52, 118, 78},    // casting: green, far from every tissue, so that it can be told apart
-    {228, 200, 128},  // fat
+    {222, 195, 125},  // fat
     {214, 198, 178},  // fascia
     {138, 38, 36},    // muscle
     {218, 208, 190},  // tendon

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware_bridge/wire/rig_client.hpp"
-#include "tests/firmware_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace biotomy::bridge::testing {
 
@@ -90,7 +90,7 @@ class FakeRig {
     connection_->send(to_json(answer.message), kLimit, answer.descriptor.get());
   }
 
-  TemporaryFolder folder_;
+  tests::TemporaryFolder folder_;
   Answer answer_;
   std::optional<RigListener> listener_;
   std::mutex mutex_;

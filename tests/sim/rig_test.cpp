@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/sim/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace biotomy::sim {
 namespace {
@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 /// A rig in a clock of its own, with files.
 struct Workshop {
-  TemporaryFolder folder;
+  tests::TemporaryFolder folder;
   RigSettings settings{.time_scale = 10, .initial_face_um = 900, .roughness_um = 0};
   Rig::RealTime now{};
 

@@ -35,7 +35,7 @@ TEST(SocketLines, ReportTheInputsAsTheyAre) {
 }
 
 TEST(SocketLines, AreUnsafeWhenNobodyIsThere) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   SocketLines lines(folder / "none.sock", 5s);
   EXPECT_TRUE(is_unsafe(lines.read_inputs()));
 }

@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/firmware_bridge/temporary_folder.hpp"
 #include "tests/firmware_bridge/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace biotomy::bridge {
 namespace {
@@ -118,7 +118,7 @@ TEST(CheckedTable, TellsWhereTheTomlItselfIsWrong) {
 }
 
 TEST(CheckedTable, TellsThatAFileCannotBeOpenedOrIsAFolder) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   EXPECT_THAT(refusal([&] { CheckedTable::read_file(folder / "none.toml"); }),
               ::testing::HasSubstr("none.toml: cannot be opened"));
   EXPECT_THAT(refusal([&] { CheckedTable::read_file(folder / ""); }),
@@ -126,7 +126,7 @@ TEST(CheckedTable, TellsThatAFileCannotBeOpenedOrIsAFolder) {
 }
 
 TEST(CheckedTable, TakesRelativePathsFromTheFilesFolder) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   std::ofstream(folder / "rig.toml") << "a = 1\n";
   const CheckedTable table = CheckedTable::read_file(folder / "rig.toml");
   EXPECT_EQ(table.resolve("map.toml"), folder / "map.toml");

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/firmware_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace biotomy::bridge {
 namespace {
@@ -72,7 +72,7 @@ void send_with_descriptors(int socket, const std::string& text, std::size_t coun
 }
 
 TEST(RigSocket, CarriesPacketsWholeBothWays) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   RigListener listener(folder / "rig.sock");
   RigConnection client = RigConnection::connect(folder / "rig.sock", 1s);
   std::optional<RigConnection> server = listener.accept(1s);
@@ -122,7 +122,7 @@ TEST(RigSocket, TellsThatThePeerIsGone) {
 }
 
 TEST(RigSocket, TellsThatNobodyListens) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   EXPECT_EQ(kind_of_failure([&] { RigConnection::connect(folder / "none.sock", 1s); }),
             Kind::disconnected);
 }
@@ -160,7 +160,7 @@ TEST(RigSocket, EndsAWaitFromAnotherThread) {
 }
 
 TEST(RigListener, ReplacesASocketThatNobodyListensOn) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const std::filesystem::path path = folder / "rig.sock";
   {
     const RigListener listener(path);
@@ -171,7 +171,7 @@ TEST(RigListener, ReplacesASocketThatNobodyListensOn) {
 }
 
 TEST(RigListener, LeavesAPathInUseAlone) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const RigListener listener(folder / "rig.sock");
   EXPECT_EQ(kind_of_failure([&] { RigListener second(folder / "rig.sock"); }), Kind::failed);
   EXPECT_TRUE(std::filesystem::exists(folder / "rig.sock"));
@@ -186,7 +186,7 @@ TEST(RigListener, RefusesAPathThatIsTooLong) {
 }
 
 TEST(RigListener, LetsOnlyItsOwnerAndGroupIn) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   const RigListener listener(folder / "rig.sock");
   struct stat status {};
   ASSERT_EQ(::stat(listener.path().c_str(), &status), 0);
@@ -194,7 +194,7 @@ TEST(RigListener, LetsOnlyItsOwnerAndGroupIn) {
 }
 
 TEST(RigListener, GivesUpWaitingForACaller) {
-  const testing::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   RigListener listener(folder / "rig.sock");
   EXPECT_FALSE(listener.accept(1ms));
 }
