@@ -28,7 +28,7 @@ auto changed(const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  return [text] { parse_configuration(text, "rig.toml"); };
+  return [text] { return parse_configuration(text, "rig.toml"); };
 }
 
 TEST(Configuration, TakesTheSmallestFileWithEveryDefault) {
@@ -70,6 +70,31 @@ TEST(Configuration, WantsTheSocketOfTheSocketBackend) {
 
 TEST(Configuration, RefusesACodecThatTheStoreDoesNotKnow) {
   EXPECT_THAT(changed("[focus]", "[store]\ncodec = \"gif\"\n[focus]"), refuses("store.codec"));
+}
+
+TEST(Configuration, TakesTheVolumesLayout) {
+  const Configuration read =
+      changed("[focus]",
+              "[store]\ncodec = \"zstd1\"\ncolours = \"planar\"\nchunk = [64, 32, 16]\n"
+              "shard = [512, 256, 16]\n[focus]")();
+  const reconstruct::VolumeLayout layout{{16, 32, 64}, {16, 256, 512}, false, "zstd1"};
+  EXPECT_EQ(read.job.store.volume_layout, layout);
+}
+
+TEST(Configuration, RefusesAShardThatIsNoMultipleOfItsChunk) {
+  EXPECT_THAT(changed("[focus]", "[store]\nshard = [1000, 1024, 32]\n[focus]"),
+              refuses("multiple of the chunk"));
+}
+
+TEST(Configuration, RefusesAPartOfAVoxel) {
+  EXPECT_THAT(changed("[focus]", "[store]\nchunk = [32, 32, 1.5]\n[focus]"),
+              refuses("store.chunk"));
+}
+
+TEST(Configuration, ReadsTheExampleThatIsInstalled) {
+  const Configuration read = read_configuration(BIOTOMY_EXAMPLE_CONFIGURATION);
+  EXPECT_EQ(read.lines.backend, LinesConfiguration::Backend::gpiod);
+  EXPECT_EQ(read.job.plan.layers, 4000);
 }
 
 TEST(Configuration, FindsRelativePathsBesideItself) {

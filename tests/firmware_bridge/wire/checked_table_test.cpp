@@ -88,6 +88,15 @@ TEST(CheckedTable, RefusesAMissingRequiredKey) {
             "rig.toml:1: a.x: missing; expected a number");
 }
 
+TEST(CheckedTable, SuspectsAMisspeltKeyBehindAMissingOne) {
+  const auto ask = [](const char* text) {
+    return refusal([&] { parse(text).get(IntegerKey{.name = "thickness"}); });
+  };
+  EXPECT_EQ(ask("thicknes = 3"),
+            "rig.toml:1: thickness: missing; expected an integer; is it misspelt as \"thicknes\"?");
+  EXPECT_EQ(ask("colour = 3"), "rig.toml:1: thickness: missing; expected an integer");
+}
+
 TEST(CheckedTable, PutsTheNearestKnownKeyForwardForAnUnknownOne) {
   const CheckedTable table = parse("[camera]\nexposre_us = 1\n");
   table.table("camera").get(NumberKey{.name = "exposure_us", .fallback = 1});
