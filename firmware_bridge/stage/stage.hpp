@@ -90,8 +90,9 @@ class Stage {
   /// Writes the daemon's heartbeat and reads one snapshot of the status.
   virtual StageStatus exchange(std::uint16_t heartbeat) = 0;
 
-  /// Hands over a command under a number that was not used before. It never repeats the command
-  /// after a time-out: the caller reads `sequence_started` back and decides.
+  /// Hands over a command under a number that the controller has not started. After a time-out it
+  /// is never repeated here: the caller reads `sequence_started` back and decides. Handing it over
+  /// again under the same number is safe, since the controller starts each number once.
   virtual void issue(std::uint32_t sequence, const StageCommand& command) = 0;
 };
 

@@ -2,9 +2,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "sim/phantom/phantom.hpp"
 #include "tests/integration/child_process.hpp"
