@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/integration/child_process.hpp"
+#include "tests/integration/listening_socket.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
@@ -163,6 +164,25 @@ TEST_F(CommandLine, TheDaemonSuspectsAMisspeltKeyBehindAMissingOne) {
   const Outcome outcome = run({BIOTOMY_DAEMON, "--config", config}, folder_.path());
   expect_one_line(outcome, kUsage, "layer_thickness_um");
   expect_one_line(outcome, kUsage, "layer_thicknes_um");
+}
+
+TEST_F(CommandLine, DaemonAndTwinSayThatTheirPortIsTaken) {
+  const ListeningSocket taken;
+  const fs::path sim = folder_.path() / "sim.toml";
+  std::ofstream(sim) << "[stage]\nlisten = \"tcp://" << taken.address()
+                     << "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
+                        "\"\n[rig]\nsocket = \"unix://s\"\n";
+  expect_one_line(run({BIOTOMY_TWIN, "--config", sim}, folder_.path()), kFailure, taken.address());
+
+  const fs::path rig = folder_.path() / "rig.toml";
+  std::ofstream(rig) << "[job]\nsample = \"s\"\nlayers = 3\nlayer_thickness_um = 20\n"
+                        "pixel_um = [10, 10]\nfirst_face_um = 0\n[stage]\nendpoint = \"tcp://"
+                     << taken.address() << "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
+                     << "\"\n[lines]\nendpoint = \"unix://s\"\n[camera]\nendpoint = "
+                        "\"unix://s\"\n[focus]\nstart_um = 0\n[service]\nlisten = \""
+                     << taken.address() << "\"\n";
+  expect_one_line(run({BIOTOMY_DAEMON, "--config", rig}, folder_.path()), kFailure,
+                  taken.address());
 }
 
 TEST_F(CommandLine, TheTwinRefusesAnUnknownKeyAndNamesTheNearest) {

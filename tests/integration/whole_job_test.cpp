@@ -78,12 +78,14 @@ class WholeJob : public testing::Test {
   SimulatedRig rig_{RigPlan{}};
 };
 
-// What is left between the acquired volume and the formula: the photon noise of 16000 electrons at
-// white (2 levels there, 1.4 at middle grey: 44 dB), the rounding to whole levels (59 dB), the
-// small blur of diffraction and of a focus that is a few micrometres off, debris that the air blast
-// left, and faces that a pass left up to 1 µm from their target. The lens's falloff is no error of
-// the acquisition and is taken out; uncorrected it costs about 10 dB (flat-fielding comes with the
-// calibration).
+// Reached: 44.2 dB for the volume and 37.3 dB for an oblique section.
+// What is left between the volume and the formula: the photon noise of 16000 electrons at white (2
+// levels there, 1.4 at middle grey: 44 to 46 dB), rounding to whole levels (59 dB), the blur of
+// diffraction and of a focus that is a few micrometres off, and faces that a pass left 0.3 µm from
+// their target. The lens's falloff is no error of the acquisition and is taken out; with it the
+// volume reaches 36.1 dB (flat-fielding comes with the calibration).
+// The section loses 7 dB more because between layers 20 µm apart it interpolates linearly across
+// details of 35 µm.
 TEST_F(WholeJob, GivesTheVolumeThatTheFormulaDescribes) {
   start_job();
   finish_job();
@@ -111,7 +113,7 @@ TEST_F(WholeJob, GivesTheVolumeThatTheFormulaDescribes) {
   }
   std::cout << "volume against formula: " << as_seen.decibels() << " dB as seen, "
             << lens_corrected.decibels() << " dB without the lens's falloff\n";
-  EXPECT_GT(lens_corrected.decibels(), 36.0);
+  EXPECT_GT(lens_corrected.decibels(), 42.0);
 
   // An oblique section by the tool, against the formula at the same points.
   const std::filesystem::path picture = rig_.folder() / "oblique.png";
