@@ -34,6 +34,7 @@ tmsize_t read_memory(thandle_t handle, void* data, tmsize_t size) {
 }
 
 tmsize_t write_memory(thandle_t handle, void* data, tmsize_t size) {
+  if (size == 0) return 0;  // libtiff flushes empty buffers, which may be null
   MemoryFile& file = file_of(handle);
   const std::size_t end = file.position + static_cast<std::size_t>(size);
   if (end > file.bytes->size()) {
