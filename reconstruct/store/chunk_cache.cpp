@@ -48,7 +48,7 @@ Chunk ChunkCache::get(ChunkIndex index) {
   }
   // Read and decoded without the lock; those who ask meanwhile wait for the promise.
   try {
-    Chunk chunk = state_->volume.read_chunk(index);
+    Chunk chunk = state_->volume.read_chunk(0, index);
     {
       const std::lock_guard lock(state_->mutex);
       state_->decoded.put(index, chunk, chunk ? chunk->size() : kFillWeight);

@@ -12,6 +12,10 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t kMostLevels = 32;
+constexpr double kMostFactor = 1 << 30;
+constexpr double kSameFactor = 1e-9;  // relative
+
 struct Colour {
   const char* label;
   const char* hexadecimal;
@@ -27,18 +31,20 @@ json axes() {
   return list;
 }
 
-json dataset(const Vector3& spacing, int level) {
-  const double factor = std::ldexp(1.0, level);
+// Each voxel is the mean of those it stands for, so its centre lies (factor − 1)/2 voxels of level
+// 0 further in; viewers that are not told so show the levels shifted against each other.
+json dataset(const Vector3& spacing, std::size_t level, const LevelFactor& factor) {
+  const PyramidLevel place = pyramid_level({{1, 1, 1}, spacing}, factor);
+  const Vector3& scale = place.spacing;
+  const Vector3& origin = place.origin;
   json transformations =
-      json::array({{{"type", "scale"},
-                    {"scale", {1.0, factor * spacing.z, factor * spacing.y, factor * spacing.x}}}});
+      json::array({{{"type", "scale"}, {"scale", {1.0, scale.z, scale.y, scale.x}}}});
   if (level > 0) {
-    const double offset = level_offset(level);
     transformations.push_back(
-        {{"type", "translation"},
-         {"translation", {0.0, offset * spacing.z, offset * spacing.y, offset * spacing.x}}});
+        {{"type", "translation"}, {"translation", {0.0, origin.z, origin.y, origin.x}}});
   }
-  return {{"path", level_path(level)}, {"coordinateTransformations", transformations}};
+  return {{"path", level_path(static_cast<int>(level))},
+          {"coordinateTransformations", transformations}};
 }
 
 json channels(int bits) {
@@ -53,6 +59,46 @@ json channels(int bits) {
   return list;
 }
 
+Vector3 scale_of(const json& dataset) {
+  const json& scale = dataset.at("coordinateTransformations").at(0).at("scale");
+  const Vector3 spacing{scale.at(3).get<double>(), scale.at(2).get<double>(),
+                        scale.at(1).get<double>()};
+  for (const double each : {spacing.x, spacing.y, spacing.z}) {
+    if (!std::isfinite(each) || each <= 0.0) {
+      throw SampleError("the spacings must be above 0");
+    }
+  }
+  return spacing;
+}
+
+/// How many voxels of level 0 a voxel of a level takes along one axis.
+std::int64_t factor_between(double finest, double spacing) {
+  const double factor = std::round(spacing / finest);
+  int exponent = 0;
+  if (!(std::abs(spacing / finest - factor) < kSameFactor * factor) || factor > kMostFactor ||
+      std::frexp(factor, &exponent) != 0.5) {
+    throw SampleError("a level's voxels are not 1, 2, 4 … times as large as level 0's");
+  }
+  return static_cast<std::int64_t>(factor);
+}
+
+std::vector<LevelFactor> levels_of(const json& datasets) {
+  if (datasets.empty() || datasets.size() > kMostLevels) {
+    throw SampleError("it has " + std::to_string(datasets.size()) + " levels");
+  }
+  const Vector3 finest = scale_of(datasets.at(0));
+  std::vector<LevelFactor> levels;
+  for (std::size_t level = 0; level < datasets.size(); ++level) {
+    if (datasets.at(level).at("path") != level_path(static_cast<int>(level))) {
+      throw SampleError("its levels are not named by their numbers");
+    }
+    const Vector3 scale = scale_of(datasets.at(level));
+    levels.push_back({factor_between(finest.x, scale.x), factor_between(finest.y, scale.y),
+                      factor_between(finest.z, scale.z)});
+  }
+  return levels;
+}
+
 VolumeMetadata from_json(const json& group) {
   const json& attributes = group.at("attributes");
   const json& ome = attributes.at("ome");
@@ -61,18 +107,13 @@ VolumeMetadata from_json(const json& group) {
     throw SampleError("expected OME-Zarr 0.5");
   }
   const json& multiscale = ome.at("multiscales").at(0);
-  const json& scale =
-      multiscale.at("datasets").at(0).at("coordinateTransformations").at(0).at("scale");
+  const json& datasets = multiscale.at("datasets");
   VolumeMetadata metadata;
   metadata.name = multiscale.at("name").get<std::string>();
-  metadata.spacing = {scale.at(3).get<double>(), scale.at(2).get<double>(),
-                      scale.at(1).get<double>()};
-  metadata.levels = static_cast<int>(multiscale.at("datasets").size());
+  metadata.levels = levels_of(datasets);
+  metadata.spacing = scale_of(datasets.at(0));
   metadata.bits = own.at("bits").get<int>();
   metadata.layers_present = own.at("layers_present").get<std::int64_t>();
-  if (!(metadata.spacing.x > 0 && metadata.spacing.y > 0 && metadata.spacing.z > 0)) {
-    throw SampleError("the spacings must be above 0");
-  }
   if (metadata.layers_present < 0 || (metadata.bits != 8 && metadata.bits != 16)) {
     throw SampleError("attributes.biotomy makes no sense");
   }
@@ -85,14 +126,10 @@ std::string level_path(int level) {
   return std::to_string(level);
 }
 
-double level_offset(int level) {
-  return (std::ldexp(1.0, level) - 1.0) / 2.0;
-}
-
 std::string group_metadata(const VolumeMetadata& metadata) {
   json datasets = json::array();
-  for (int level = 0; level < metadata.levels; ++level) {
-    datasets.push_back(dataset(metadata.spacing, level));
+  for (std::size_t level = 0; level < metadata.levels.size(); ++level) {
+    datasets.push_back(dataset(metadata.spacing, level, metadata.levels[level]));
   }
   const json multiscale = {{"name", metadata.name},
                            {"axes", axes()},

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "reconstruct/geometry/vector3.hpp"
+#include "reconstruct/store/pyramid.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -13,18 +15,14 @@ struct VolumeMetadata {
   std::string name;
   Vector3 spacing;  ///< of level 0, micrometres
   int bits = 8;
-  int levels = 1;
-  std::int64_t layers_present = 0;  ///< layers from 1 that hold what was photographed
+  std::vector<LevelFactor> levels{{}};  ///< from level 0, whose factors are 1
+  std::int64_t layers_present = 0;      ///< layers from 1 that hold what was photographed
 
   friend bool operator==(const VolumeMetadata&, const VolumeMetadata&) = default;
 };
 
 /// The name of a level's array below the group: its number.
 std::string level_path(int level);
-
-/// How far level `level`'s first voxel centre lies from level 0's along an axis, in voxels of level
-/// 0: (2^level − 1)/2, as each voxel is the average of 2^level.
-double level_offset(int level);
 
 /// The text of the group's `zarr.json`.
 std::string group_metadata(const VolumeMetadata& metadata);

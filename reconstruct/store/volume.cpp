@@ -18,7 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kFullResolution = 0;
 constexpr const char* kMetadataName = "zarr.json";
 constexpr std::size_t kIndexCacheBytes = std::size_t{64} << 20;
 constexpr std::uint64_t kLargestMetadata = std::uint64_t{16} << 20;
@@ -54,13 +53,27 @@ std::string read_text(ObjectReader& objects, const std::string& name) {
   throw SampleError(objects.describe(name) + ": keeps changing while it is read");
 }
 
+std::vector<PyramidLevel> levels_of(const Cuboid& cuboid, const std::vector<LevelFactor>& factors) {
+  std::vector<PyramidLevel> levels;
+  for (const LevelFactor& factor : factors) {
+    levels.push_back(pyramid_level(cuboid, factor));
+  }
+  return levels;
+}
+
+ZarrArray read_array(ObjectReader& objects, int level) {
+  const std::string name = level_path(level) + "/" + kMetadataName;
+  return parse_array_metadata(read_text(objects, name), objects.describe(name));
+}
+
 }  // namespace
 
 struct Volume::State {
   std::unique_ptr<ObjectReader> objects;
   VolumeMetadata metadata;
-  ZarrArray array;
+  ZarrArray array;  // of level 0; the others differ in size alone
   Cuboid cuboid;
+  std::vector<PyramidLevel> levels;
   BlockCount chunks_of_one_shard;
   ChunkCodec codec;
   ReadStatistics statistics;
@@ -72,6 +85,7 @@ struct Volume::State {
         metadata(std::move(group)),
         array(level),
         cuboid{level.size, metadata.spacing},
+        levels(levels_of(cuboid, metadata.levels)),
         chunks_of_one_shard(chunks_of_shard(level.layout)),
         codec(level.layout, level.bits) {}
 
@@ -142,17 +156,30 @@ Volume Volume::open(const std::filesystem::path& path) {
   auto objects = std::make_unique<LocalObjectReader>(path);
   VolumeMetadata metadata =
       parse_group_metadata(read_text(*objects, kMetadataName), objects->describe(kMetadataName));
-  const std::string array_name = level_path(kFullResolution) + "/" + kMetadataName;
-  const ZarrArray array =
-      parse_array_metadata(read_text(*objects, array_name), objects->describe(array_name));
+  const ZarrArray array = read_array(*objects, 0);
   if (array.bits != metadata.bits || metadata.layers_present > array.size.z) {
     throw SampleError(path.string() + ": its metadata and its array contradict each other");
   }
-  return Volume(std::make_unique<State>(std::move(objects), std::move(metadata), array));
+  auto state = std::make_unique<State>(std::move(objects), std::move(metadata), array);
+  for (std::size_t level = 1; level < state->levels.size(); ++level) {
+    ZarrArray expected = array;
+    expected.size = state->levels[level].size;
+    if (read_array(*state->objects, static_cast<int>(level)) != expected) {
+      throw SampleError(path.string() + ": its level " + std::to_string(level) +
+                        " does not fit level 0; build the volume anew");
+    }
+  }
+  return Volume(std::move(state));
 }
 
 const Cuboid& Volume::cuboid() const {
   return state_->cuboid;
+}
+int Volume::levels() const {
+  return static_cast<int>(state_->levels.size());
+}
+const PyramidLevel& Volume::level(int number) const {
+  return state_->levels.at(static_cast<std::size_t>(number));
 }
 const VolumeLayout& Volume::layout() const {
   return state_->array.layout;
@@ -167,10 +194,10 @@ const ReadStatistics& Volume::statistics() const {
   return state_->statistics;
 }
 
-std::shared_ptr<const ChunkVoxels> Volume::read_chunk(ChunkIndex chunk) const {
+std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chunk) const {
   const BlockCount& per_shard = state_->chunks_of_one_shard;
   const std::string name =
-      level_path(kFullResolution) + "/" +
+      level_path(level) + "/" +
       shard_key(chunk.z / per_shard.z, chunk.y / per_shard.y, chunk.x / per_shard.x);
   const std::int64_t place =
       ((chunk.z % per_shard.z) * per_shard.y + chunk.y % per_shard.y) * per_shard.x +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reconstruct/geometry/cuboid.hpp"
+#include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
 
 namespace biotomy::reconstruct {
@@ -44,13 +45,15 @@ class Volume {
   Volume(Volume&&) noexcept;
 
   const Cuboid& cuboid() const;  ///< of the whole job
+  int levels() const;            ///< at least 1
+  const PyramidLevel& level(int number) const;
   const VolumeLayout& layout() const;
   int bits() const;                     ///< of one colour, 8 or 16
   std::int64_t layers_present() const;  ///< as the metadata said when it was opened
 
-  /// Reads and decodes one chunk; a chunk that was never written is null (all fill value).
+  /// Reads and decodes one chunk of a level; one that was never written is null (all fill value).
   /// Throws SampleError on a damaged shard or chunk.
-  std::shared_ptr<const ChunkVoxels> read_chunk(ChunkIndex index) const;
+  std::shared_ptr<const ChunkVoxels> read_chunk(int level, ChunkIndex index) const;
 
   const ReadStatistics& statistics() const;
 

@@ -39,7 +39,7 @@ TEST_F(CachedVolume, DecodesAChunkOnce) {
   ChunkCache cache(volume, 10 * kChunkBytes);
   const auto first = cache.get({0, 1, 1});
   EXPECT_EQ(cache.get({0, 1, 1}), first);
-  EXPECT_EQ(*first, *volume.read_chunk({0, 1, 1}));
+  EXPECT_EQ(*first, *volume.read_chunk(0, {0, 1, 1}));
   EXPECT_EQ(volume.statistics().chunks_read, 2);  // the second by the line above
 }
 

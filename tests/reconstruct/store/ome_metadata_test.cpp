@@ -10,7 +10,7 @@ namespace biotomy::reconstruct {
 namespace {
 
 VolumeMetadata example() {
-  return {"knee \"042\"", {10.5, 11.0, 50.0}, 16, 3, 96};
+  return {"knee \"042\"", {10.5, 11.0, 50.0}, 16, {{1, 1, 1}, {2, 2, 1}, {4, 4, 2}}, 96};
 }
 
 TEST(OmeMetadata, IsUnderstoodAgain) {
@@ -33,9 +33,24 @@ TEST(OmeMetadata, HigherLevelsLieHalfOfTheirGrowthFurtherIn) {
   const auto group = nlohmann::json::parse(group_metadata(example()));
   const auto& level = group.at("attributes").at("ome").at("multiscales").at(0).at("datasets").at(2);
   const auto& transformations = level.at("coordinateTransformations");
-  EXPECT_EQ(transformations.at(0).at("scale"), nlohmann::json({1.0, 200.0, 44.0, 42.0}));
+  EXPECT_EQ(transformations.at(0).at("scale"), nlohmann::json({1.0, 100.0, 44.0, 42.0}));
   EXPECT_EQ(transformations.at(1).at("translation"),
-            nlohmann::json({0.0, 75.0, 16.5, 15.75}));  // 1.5 voxels
+            nlohmann::json({0.0, 25.0, 16.5, 15.75}));  // z half a voxel, y and x one and a half
+}
+
+TEST(OmeMetadata, RefusesLevelsThatAreNoPowersOfTwo) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  for (const double scale : {60.0, 0.0, -50.0, 25.0, 1e300}) {
+    group["attributes"]["ome"]["multiscales"][0]["datasets"][1]["coordinateTransformations"][0]
+         ["scale"][1] = scale;
+    EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError) << scale;
+  }
+}
+
+TEST(OmeMetadata, RefusesLevelsByOtherNames) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  group["attributes"]["ome"]["multiscales"][0]["datasets"][1]["path"] = "../../secret";
+  EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
 }
 
 TEST(OmeMetadata, ShowsTheThreeColoursInTheirFullRange) {

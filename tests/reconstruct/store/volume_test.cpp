@@ -27,7 +27,7 @@ class VolumeOnDisk : public testing::Test {
 
   Volume open() const { return Volume::open(sample_.volume_path()); }
   std::string error_of_reading(ChunkIndex chunk) const {
-    return message_of<SampleError>([&] { open().read_chunk(chunk); });
+    return message_of<SampleError>([&] { open().read_chunk(0, chunk); });
   }
   std::string error_of_opening() const {
     return message_of<SampleError>([&] { open(); });
@@ -47,7 +47,7 @@ TEST_F(VolumeOnDisk, SaysWhatItHolds) {
 }
 
 TEST_F(VolumeOnDisk, VoxelsOfAChunkAreInTheirPlaces) {
-  const auto voxels = open().read_chunk({1, 1, 2});  // z from 4, y from 8, x from 16
+  const auto voxels = open().read_chunk(0, {1, 1, 2});  // z from 4, y from 8, x from 16
   ASSERT_NE(voxels, nullptr);
   ASSERT_EQ(voxels->size(), 4U * 8 * 8 * 3);
   const cv::Mat layer = test_image(30, 20, CV_8UC3, 7);  // z 6
@@ -60,8 +60,8 @@ TEST_F(VolumeOnDisk, VoxelsOfAChunkAreInTheirPlaces) {
 
 TEST_F(VolumeOnDisk, CountsWhatReadingCosts) {
   const Volume volume = open();
-  volume.read_chunk({0, 0, 0});
-  volume.read_chunk({0, 0, 1});
+  volume.read_chunk(0, {0, 0, 0});
+  volume.read_chunk(0, {0, 0, 1});
   EXPECT_EQ(volume.statistics().chunks_read, 2);
   EXPECT_GT(volume.statistics().bytes_read, 0);
   EXPECT_GT(volume.statistics().decode_ns, 0);
@@ -69,9 +69,9 @@ TEST_F(VolumeOnDisk, CountsWhatReadingCosts) {
 
 TEST_F(VolumeOnDisk, ReadsTheIndexOfAShardOnce) {
   const Volume volume = open();
-  volume.read_chunk({0, 0, 0});
+  volume.read_chunk(0, {0, 0, 0});
   const auto first = volume.statistics().bytes_read.load();
-  volume.read_chunk({0, 0, 0});
+  volume.read_chunk(0, {0, 0, 0});
   const auto second = volume.statistics().bytes_read.load() - first;
   EXPECT_EQ(first - second, 4 * 16 + 4);
 }
@@ -80,7 +80,7 @@ TEST_F(VolumeOnDisk, DamagedIndexNamesTheShard) {
   flip_byte(shard_, std::filesystem::file_size(shard_) - 10);
   EXPECT_THAT(error_of_reading({0, 0, 2}),
               AllOf(StartsWith(shard_.string()), HasSubstr("checksum of its index")));
-  EXPECT_NO_THROW(open().read_chunk({0, 0, 0}));  // the other shards are as good as before
+  EXPECT_NO_THROW(open().read_chunk(0, {0, 0, 0}));  // the other shards are as good as before
 }
 
 TEST_F(VolumeOnDisk, DamagedChunkNamesTheShardAndTheChunk) {
@@ -97,9 +97,9 @@ TEST_F(VolumeOnDisk, TruncatedShardIsAnError) {
 }
 
 TEST_F(VolumeOnDisk, ReadsAWholeOldOrNewChunkThoughItsShardIsReplacedMeanwhile) {
-  const auto old_voxels = open().read_chunk({0, 0, 3});
+  const auto old_voxels = open().read_chunk(0, {0, 0, 3});
   const Volume volume = open();
-  volume.read_chunk({0, 0, 2});  // now it knows the old shard's index
+  volume.read_chunk(0, {0, 0, 2});  // now it knows the old shard's index
   // Another writer stores the band anew, from layers that compress to other lengths.
   for (std::int64_t layer = 1; layer <= 4; ++layer) {
     write_layer_image(sample_.layer_path(layer), cv::Mat(20, 30, CV_8UC3, cv::Scalar(1, 2, 3)),
@@ -108,10 +108,10 @@ TEST_F(VolumeOnDisk, ReadsAWholeOldOrNewChunkThoughItsShardIsReplacedMeanwhile) 
   const VolumeLayout layout = volume.layout();
   std::filesystem::remove_all(sample_.volume_path());
   VolumeWriter(sample_, layout).append(8, false);
-  const auto new_voxels = open().read_chunk({0, 0, 3});
+  const auto new_voxels = open().read_chunk(0, {0, 0, 3});
   ASSERT_NE(*old_voxels, *new_voxels);
 
-  const auto voxels = volume.read_chunk({0, 0, 3});
+  const auto voxels = volume.read_chunk(0, {0, 0, 3});
   ASSERT_NE(voxels, nullptr);
   EXPECT_TRUE(*voxels == *old_voxels || *voxels == *new_voxels);
 }

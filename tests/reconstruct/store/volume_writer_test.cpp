@@ -34,7 +34,7 @@ cv::Mat layer_of(const Volume& volume, std::int64_t layer) {
                  cv::Scalar::all(0));
   for (int y = 0; y < size.y; y += chunk[1]) {
     for (int x = 0; x < size.x; x += chunk[2]) {
-      const auto voxels = volume.read_chunk({z / chunk[0], y / chunk[1], x / chunk[2]});
+      const auto voxels = volume.read_chunk(0, {z / chunk[0], y / chunk[1], x / chunk[2]});
       if (voxels) {
         const std::size_t plane = voxels->size() / static_cast<std::size_t>(chunk[0]);
         auto* data =
@@ -164,8 +164,8 @@ TEST_F(Writer, StoresNoShardThatIsAllFillValue) {
   const auto rows = black.volume_path() / "0" / "c" / "0" / "0";
   EXPECT_THAT(names_in(rows), testing::ElementsAre("0"));
   EXPECT_THAT(names_in(rows / "0"), testing::ElementsAre("0"));
-  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk({0, 0, 2}), nullptr);   // same shard
-  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk({0, 2, 24}), nullptr);  // no shard
+  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk(0, {0, 0, 2}), nullptr);   // same shard
+  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk(0, {0, 2, 24}), nullptr);  // no shard
 }
 
 }  // namespace
