@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/section/cached_volume.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -21,7 +21,7 @@
 namespace biotomy::tools {
 namespace {
 
-using reconstruct::CachedVolume;
+using reconstruct::VolumeBricks;
 using reconstruct::SampleFolder;
 using reconstruct::Section;
 using reconstruct::Vector3;
@@ -66,7 +66,7 @@ void run_section(const SectionArguments& arguments) {
   const reconstruct::Plane plane =
       reconstruct::parse_plane("--", arguments.plane, chosen.unit, spacing);
 
-  CachedVolume source(volume, chosen.cache_bytes);
+  VolumeBricks source(volume, chosen.cache_bytes);
   const Section section =
       reconstruct::cut_section(source, {plane, reconstruct::section_basis(chosen.basis, plane),
                                         style_for(chosen, arguments.options, spacing)});

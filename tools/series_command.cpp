@@ -11,7 +11,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/section/cached_volume.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/section/film.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -129,7 +129,7 @@ void run_series(const SeriesArguments& arguments, MakeSeries make_series) {
   }
   const reconstruct::Volume volume =
       reconstruct::Volume::open(reconstruct::SampleFolder::open(arguments.sample).volume_path());
-  reconstruct::CachedVolume source(volume, chosen.cache_bytes);
+  reconstruct::VolumeBricks source(volume, chosen.cache_bytes);
   const reconstruct::SeriesFrames frames(
       source, make_series(arguments, chosen, volume.cuboid()),
       style_for(chosen, arguments.options, volume.cuboid().spacing));

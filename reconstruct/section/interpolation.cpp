@@ -11,7 +11,11 @@ Interpolation interpolation(const std::string& name) {
   if (name == "linear") {
     return Interpolation::linear;
   }
-  throw InvalidRequest("no interpolation is called '" + name + "': there are nearest and linear");
+  if (name == "cubic") {
+    return Interpolation::cubic;
+  }
+  throw InvalidRequest("no interpolation is called '" + name +
+                       "': there are nearest, linear and cubic");
 }
 
 }  // namespace biotomy::reconstruct

@@ -5,8 +5,8 @@
 namespace biotomy::reconstruct {
 
 /// How the colour between voxel centres is made. Each kernel's contract (radius, support, edges)
-/// stands at the head of its file: nearest_kernel.hpp, linear_kernel.hpp.
-enum class Interpolation { nearest, linear };
+/// stands in texel_kernels.hpp.
+enum class Interpolation { nearest, linear, cubic };
 
 /// The name as it is written in options; throws InvalidRequest with the names there are.
 Interpolation interpolation(const std::string& name);

@@ -38,22 +38,26 @@ PixelGrid pixel_grid(const ThetaRectangle& rectangle, double pixel, int bytes_pe
   return {rectangle, pixel, static_cast<int>(columns), static_cast<int>(rows)};
 }
 
-VoxelRow voxel_row(const PixelGrid& grid, const Cuboid& cuboid, int row) {
+VoxelRow voxel_row(const PixelGrid& grid, const PyramidLevel& level, int row) {
   const ThetaRectangle& rectangle = grid.rectangle;
-  const Vector3 start = rectangle.origin + (row * grid.pixel) * rectangle.axes.q;
+  const Vector3 start = rectangle.origin + (row * grid.pixel) * rectangle.axes.q - level.origin;
   const Vector3 step = grid.pixel * rectangle.axes.p;
-  VoxelRow result{
-      {start.x / cuboid.spacing.x, start.y / cuboid.spacing.y, start.z / cuboid.spacing.z},
-      {step.x / cuboid.spacing.x, step.y / cuboid.spacing.y, step.z / cuboid.spacing.z}};
+  VoxelRow result{{start.x / level.spacing.x, start.y / level.spacing.y, start.z / level.spacing.z},
+                  {step.x / level.spacing.x, step.y / level.spacing.y, step.z / level.spacing.z}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double centre = std::round(result.start[axis]);
-    const bool constant = std::abs(result.step[axis]) * grid.columns < kSameCentre;
-    if (constant && std::abs(result.start[axis] - centre) < kSameCentre) {
+    const double whole_step = std::round(result.step[axis]);
+    if (std::abs(result.start[axis] - centre) < kSameCentre &&
+        std::abs(result.step[axis] - whole_step) * grid.columns < kSameCentre) {
       result.start[axis] = centre;
-      result.step[axis] = 0.0;
+      result.step[axis] = whole_step;
     }
   }
   return result;
+}
+
+VoxelRow voxel_row(const PixelGrid& grid, const Cuboid& cuboid, int row) {
+  return voxel_row(grid, pyramid_level(cuboid, {}), row);
 }
 
 ColumnRange columns_inside(const VoxelRow& row, ColumnRange range, const GridSize& size) {

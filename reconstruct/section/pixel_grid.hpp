@@ -5,6 +5,7 @@
 
 #include "reconstruct/geometry/cuboid.hpp"
 #include "reconstruct/geometry/theta_rectangle.hpp"
+#include "reconstruct/store/pyramid.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -34,10 +35,13 @@ struct VoxelRow {
   }
 };
 
-/// Row `row` of `grid` among the voxels of `cuboid`. A coordinate that is the same all along the
-/// row and within 10⁻⁹ voxel of a voxel centre is exactly that centre, with a step of exactly 0: a
-/// section along a layer needs no other layer.
+/// Row `row` of `grid` among the voxels of `cuboid`. An axis along which all pixels of the row lie
+/// on voxel centres, to within 10⁻⁹ voxel, has exactly those: start and step are whole numbers. So
+/// a section along a layer needs no other layer, and no voxel beside its own.
 VoxelRow voxel_row(const PixelGrid& grid, const Cuboid& cuboid, int row);
+
+/// Likewise among the voxels of a level of the pyramid.
+VoxelRow voxel_row(const PixelGrid& grid, const PyramidLevel& level, int row);
 
 /// Columns from `first` to before `last`.
 struct ColumnRange {

@@ -3,188 +3,196 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "reconstruct/section/chunk_window.hpp"
-#include "reconstruct/section/linear_kernel.hpp"
-#include "reconstruct/section/nearest_kernel.hpp"
+#include "reconstruct/section/level_choice.hpp"
+#include "reconstruct/section/tile_plan.hpp"
+#include "reconstruct/section/tile_sampler.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr int kLargestTile = 128;       // pixels along a side
-constexpr double kWindowChunks = 4096;  // a tile's table stays in the nearest cache levels
+using Clock = std::chrono::steady_clock;
 
-// What one thread has gathered; united when all tiles are done.
-struct Gathered {
-  std::vector<ChunkIndex> touched;
-  std::chrono::nanoseconds sampling{0};
-};
-
-struct Tile {
-  ColumnRange columns;
-  int first_row = 0;
-  int last_row = 0;  // the one after the last
-};
+constexpr int kTileColumns = 256;
+constexpr int kTileRows = 16;
+constexpr int kStripRows = 128;
+constexpr int kLeastStripRows = 8;
+constexpr double kBoxBricks = 4096;  // a tile's table stays in the nearest cache levels
 
 double step_between(const VoxelRow& a, const VoxelRow& b, std::size_t axis) {
   return std::abs(b.start[axis] - a.start[axis]);
 }
 
-// Halved until the chunks around a tile make a small table, however many voxels a pixel spans.
-int tile_side(const PixelGrid& grid, const ChunkSource& source) {
-  const VoxelRow row = voxel_row(grid, source.cuboid(), 0);
-  const VoxelRow next = voxel_row(grid, source.cuboid(), 1);
-  const std::array<int, 3> shape = source.chunk_shape();
-  for (int side = kLargestTile; side > 1; side /= 2) {
-    double chunks = 1.0;
+/// Rows and columns of tiles, halved until the bricks around a tile make a small table, however
+/// many voxels a pixel spans.
+cv::Size tile_size(const BrickSource& source, int level, const PixelGrid& grid) {
+  const VoxelRow row = voxel_row(grid, source.level(level), 0);
+  const VoxelRow next = voxel_row(grid, source.level(level), 1);
+  const std::array<int, 3> shape = source.brick_shape();
+  cv::Size size(kTileColumns, kTileRows);
+  for (; size.height > 1; size = {size.width / 2, size.height / 2}) {
+    double bricks = 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double voxels = side * (std::abs(row.step[axis]) + step_between(row, next, axis)) + 2.0;
-      chunks *= voxels / shape[2 - axis] + 2.0;
+      const double voxels =
+          size.width * std::abs(row.step[axis]) + size.height * step_between(row, next, axis) + 4.0;
+      bricks *= voxels / shape[2 - axis] + 2.0;
     }
-    if (chunks <= kWindowChunks) {
-      return side;
+    if (bricks <= kBoxBricks) {
+      break;
     }
   }
-  return 1;
+  return size;
 }
 
+/// Some rows of the picture, and all that sampling them from one level needs.
+struct Strip {
+  int level = 0;
+  int first_row = 0;
+  int last_row = 0;
+  std::vector<TilePlan> tiles;
+  std::vector<ChunkIndex> bricks;  ///< of all tiles, sorted, each once
+};
+
+/// Samples one level after another, strip by strip. While a strip's bricks are decoded and sampled,
+/// those of the next have been announced, so that the disk is never waited for and never idle.
 template <typename Level>
-void fill(Level* out, int count, const std::array<Level, 3>& colour) {
-  for (int i = 0; i < count; ++i, out += 3) {
-    std::copy(colour.begin(), colour.end(), out);
-  }
-}
-
-template <template <typename> class Kernel, typename Level>
-class TileSampler {
+class PictureSampler {
  public:
-  TileSampler(ChunkSource& source, const PixelGrid& grid, const Colour& background, cv::Mat& image)
-      : source_(source), grid_(grid), image_(image) {
-    const GridSize& size = source.cuboid().size;
-    last_ = {static_cast<int>(size.x - 1), static_cast<int>(size.y - 1),
-             static_cast<int>(size.z - 1)};
-    const int scale = sizeof(Level) == 1 ? 1 : 257;
+  PictureSampler(BrickSource& source, const PixelGrid& grid, Interpolation kind,
+                 const Colour& background)
+      : source_(source),
+        grid_(grid),
+        kind_(kind),
+        samplers_([kind] { return TileSampler<Level>(kind); }) {
+    constexpr int kScale = sizeof(Level) == 1 ? 1 : 257;
     for (std::size_t colour = 0; colour < 3; ++colour) {
-      background_[colour] = static_cast<Level>(background[colour] * scale);
+      background_[colour] = static_cast<Level>(background[colour] * kScale);
     }
   }
 
-  void sample(const Tile& tile, Gathered& gathered) const {
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<VoxelRow> rows;
-    std::vector<ColumnRange> inside;
-    for (int v = tile.first_row; v < tile.last_row; ++v) {
-      rows.push_back(voxel_row(grid_, source_.cuboid(), v));
-      inside.push_back(columns_inside(rows.back(), tile.columns, source_.cuboid().size));
+  SampledImage sample() {
+    const auto start = Clock::now();
+    const LevelChoice levels = level_choice(source_, grid_.pixel, kind_);
+    SampledImage result{cv::Mat(grid_.rows, grid_.columns, sizeof(Level) == 1 ? CV_8UC3 : CV_16UC3),
+                        {}};
+    sample_level(levels.finer, 0.0, result.image);
+    if (levels.part > 0.0) {
+      sample_level(levels.finer + 1, levels.part, result.image);
     }
-    ChunkWindow window(source_, box_around(rows, inside));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      Level* out = image_.ptr<Level>(tile.first_row + static_cast<int>(i));
-      fill(out + 3 * std::ptrdiff_t{tile.columns.first}, inside[i].first - tile.columns.first,
-           background_);
-      Kernel<Level>::sample_row(rows[i], inside[i], last_, window,
-                                out + 3 * std::ptrdiff_t{inside[i].first});
-      fill(out + 3 * std::ptrdiff_t{inside[i].last}, tile.columns.last - inside[i].last,
-           background_);
-    }
-    gathered.touched.insert(gathered.touched.end(), window.touched().begin(),
-                            window.touched().end());
-    gathered.sampling += std::chrono::steady_clock::now() - start - window.time_fetching();
+    result.statistics.chunks_touched = static_cast<std::int64_t>(touched_.size());
+    result.statistics.finest_level = levels.finer;
+    result.statistics.levels = levels.part > 0.0 ? 2 : 1;
+    result.statistics.sample_s =
+        std::chrono::duration<double>(Clock::now() - start - fetching_).count();
+    return result;
   }
 
  private:
-  // The voxels that the kernels may ask for: those around the pixels and one more on each side.
-  VoxelBox box_around(const std::vector<VoxelRow>& rows,
-                      const std::vector<ColumnRange>& inside) const {
-    VoxelBox box{last_, {0, 0, 0}};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (inside[i].first == inside[i].last) {
-        continue;
+  /// Fills the picture when `part` is 0, else mixes so much of the level into it.
+  void sample_level(int level, double part, cv::Mat& picture) {
+    const cv::Size tile = tile_size(source_, level, grid_);
+    rows_ = std::max(kStripRows / tile.height, 1) * tile.height;
+    std::optional<Strip> next = plan_strip(level, 0, tile);
+    while (next) {
+      const Strip strip = *std::exchange(next, std::nullopt);
+      if (strip.last_row < grid_.rows) {
+        next = plan_strip(level, strip.last_row, tile);
+        source_.expect(level, next->bricks);
       }
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const double first = rows[i].at(axis, inside[i].first);
-        const double last = rows[i].at(axis, inside[i].last - 1);
-        const int low = static_cast<int>(std::floor(std::min(first, last))) - 1;
-        const int high = static_cast<int>(std::floor(std::max(first, last))) + 2;
-        box.first[a] = std::min(box.first[a], std::clamp(low, 0, last_[a]));
-        box.last[a] = std::max(box.last[a], std::clamp(high, 0, last_[a]));
+      if (part == 0.0) {
+        sample_strip(strip, 0, picture);
+      } else {
+        cv::Mat coarse(strip.last_row - strip.first_row, picture.cols, picture.type());
+        sample_strip(strip, strip.first_row, coarse);
+        cv::Mat rows = picture.rowRange(strip.first_row, strip.last_row);
+        cv::addWeighted(rows, 1.0 - part, coarse, part, 0.0, rows);
       }
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.first[axis] = std::min(box.first[axis], box.last[axis]);
-    }
-    return box;
   }
 
-  ChunkSource& source_;
+  Strip plan_strip(int level, int first_row, const cv::Size& tile) {
+    for (;;) {
+      Strip strip{level, first_row, std::min(first_row + rows_, grid_.rows), {}, {}};
+      std::vector<Tile> tiles;
+      for (int row = strip.first_row; row < strip.last_row; row += tile.height) {
+        for (int column = 0; column < grid_.columns; column += tile.width) {
+          tiles.push_back({{column, std::min(column + tile.width, grid_.columns)},
+                           row,
+                           std::min(row + tile.height, strip.last_row)});
+        }
+      }
+      std::vector<PictureRow> rows;
+      for (int row = strip.first_row; row < strip.last_row; ++row) {
+        rows.emplace_back(source_, level, grid_, row);
+      }
+      std::vector<std::optional<TilePlan>> plans(tiles.size());
+      tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+        const Tile& each = tiles[i];
+        plans[i].emplace(
+            source_, level, kind_, each,
+            std::span(rows).subspan(static_cast<std::size_t>(each.first_row - strip.first_row),
+                                    static_cast<std::size_t>(each.last_row - each.first_row)));
+      });
+      for (std::optional<TilePlan>& plan : plans) {
+        strip.bricks.insert(strip.bricks.end(), plan->bricks().begin(), plan->bricks().end());
+        strip.tiles.push_back(*std::move(plan));
+      }
+      std::sort(strip.bricks.begin(), strip.bricks.end());
+      strip.bricks.erase(std::unique(strip.bricks.begin(), strip.bricks.end()), strip.bricks.end());
+      if (strip.bricks.size() * TexelBlocks(source_.brick_shape(), source_.bits()).brick_bytes() <=
+              source_.capacity_bytes() / 2 ||
+          rows_ <= kLeastStripRows) {
+        return strip;
+      }
+      rows_ = std::max(rows_ / 2, kLeastStripRows);  // what a strip needs must fit into memory
+    }
+  }
+
+  void sample_strip(const Strip& strip, int first_row, cv::Mat& picture) {
+    const auto start = Clock::now();
+    const std::vector<TexelBrick> bricks = source_.bricks(strip.level, strip.bricks);
+    fetching_ += Clock::now() - start;
+    for (const ChunkIndex& brick : strip.bricks) {
+      touched_.insert({strip.level, brick});
+    }
+    tbb::parallel_for(std::size_t{0}, strip.tiles.size(), [&](std::size_t i) {
+      const TilePlan& plan = strip.tiles[i];
+      std::vector<const std::byte*> texels;
+      texels.reserve(plan.bricks().size());
+      for (const ChunkIndex& brick : plan.bricks()) {
+        const auto place = std::lower_bound(strip.bricks.begin(), strip.bricks.end(), brick);
+        texels.push_back(bricks[static_cast<std::size_t>(place - strip.bricks.begin())].get());
+      }
+      samplers_.local().fill(plan, texels, background_, first_row, picture);
+    });
+  }
+
+  BrickSource& source_;
   const PixelGrid& grid_;
-  cv::Mat& image_;
-  std::array<int, 3> last_{};
+  Interpolation kind_;
   std::array<Level, 3> background_{};
+  int rows_ = kStripRows;  // of a strip
+  tbb::enumerable_thread_specific<TileSampler<Level>> samplers_;
+  std::set<std::pair<int, ChunkIndex>> touched_;
+  Clock::duration fetching_{0};
 };
-
-std::vector<Tile> tiles_of(const PixelGrid& grid, int side) {
-  std::vector<Tile> tiles;
-  for (int row = 0; row < grid.rows; row += side) {
-    for (int column = 0; column < grid.columns; column += side) {
-      tiles.push_back(
-          {{column, std::min(column + side, grid.columns)}, row, std::min(row + side, grid.rows)});
-    }
-  }
-  return tiles;
-}
-
-std::int64_t count_different(std::vector<ChunkIndex>& chunks) {
-  std::sort(chunks.begin(), chunks.end());
-  return std::unique(chunks.begin(), chunks.end()) - chunks.begin();
-}
-
-template <template <typename> class Kernel, typename Level>
-SampleStatistics sample_tiles(ChunkSource& source, const PixelGrid& grid, const Colour& background,
-                              cv::Mat& image) {
-  const TileSampler<Kernel, Level> sampler(source, grid, background, image);
-  const std::vector<Tile> tiles = tiles_of(grid, tile_side(grid, source));
-  tbb::enumerable_thread_specific<Gathered> gathered;
-  tbb::parallel_for(std::size_t{0}, tiles.size(),
-                    [&](std::size_t i) { sampler.sample(tiles[i], gathered.local()); });
-  std::vector<ChunkIndex> touched;
-  SampleStatistics statistics;
-  for (const Gathered& part : gathered) {
-    touched.insert(touched.end(), part.touched.begin(), part.touched.end());
-    statistics.sample_s += std::chrono::duration<double>(part.sampling).count();
-  }
-  statistics.chunks_touched = count_different(touched);
-  return statistics;
-}
-
-template <typename Level>
-SampleStatistics sample_with(Interpolation kind, ChunkSource& source, const PixelGrid& grid,
-                             const Colour& background, cv::Mat& image) {
-  switch (kind) {
-    case Interpolation::nearest:
-      return sample_tiles<NearestKernel, Level>(source, grid, background, image);
-    case Interpolation::linear:
-      break;
-  }
-  return sample_tiles<LinearKernel, Level>(source, grid, background, image);
-}
 
 }  // namespace
 
-SampledImage sample_grid(ChunkSource& source, const PixelGrid& grid, Interpolation kind,
+SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                          const Colour& background) {
-  const bool deep = source.bits() == 16;
-  SampledImage result{cv::Mat(grid.rows, grid.columns, deep ? CV_16UC3 : CV_8UC3), {}};
-  result.statistics = deep
-                          ? sample_with<std::uint16_t>(kind, source, grid, background, result.image)
-                          : sample_with<std::uint8_t>(kind, source, grid, background, result.image);
-  return result;
+  return source.bits() == 16
+             ? PictureSampler<std::uint16_t>(source, grid, kind, background).sample()
+             : PictureSampler<std::uint8_t>(source, grid, kind, background).sample();
 }
 
 }  // namespace biotomy::reconstruct

@@ -5,7 +5,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "reconstruct/section/chunk_source.hpp"
+#include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
 
@@ -16,7 +16,9 @@ using Colour = std::array<std::uint8_t, 3>;
 
 struct SampleStatistics {
   std::int64_t chunks_touched = 0;  ///< different ones
-  double sample_s = 0.0;            ///< without the fetching of chunks; the threads' times added up
+  int finest_level = 0;             ///< of the pyramid that was read
+  int levels = 1;                   ///< how many from there on: 1 or 2
+  double sample_s = 0.0;            ///< elapsed, without the fetching of bricks
 };
 
 struct SampledImage {
@@ -24,10 +26,11 @@ struct SampledImage {
   SampleStatistics statistics;
 };
 
-/// The colours of the source at the pixel centres of `grid`; `background` where a centre is outside
-/// the cuboid by more than 10⁻⁶ voxel. Tiles of the picture are filled in parallel; the result does
-/// not depend on how. Throws what the source throws.
-SampledImage sample_grid(ChunkSource& source, const PixelGrid& grid, Interpolation kind,
+/// The colours of the source at the pixel centres of `grid`, from the levels that level_choice
+/// names; `background` where a centre is outside the cuboid by more than 10⁻⁶ voxel. Strips of the
+/// picture follow each other, the tiles of one are filled in parallel; the result does not depend
+/// on how. Throws what the source throws.
+SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                          const Colour& background);
 
 }  // namespace biotomy::reconstruct

@@ -25,7 +25,7 @@ SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequ
   return outline;
 }
 
-Section cut_section(ChunkSource& source, const SectionRequest& request) {
+Section cut_section(BrickSource& source, const SectionRequest& request) {
   SectionOutline outline = outline_section(source.cuboid(), source.bits(), request);
   SampledImage sampled =
       sample_grid(source, outline.grid, request.style.interpolation, request.style.background);

@@ -9,7 +9,7 @@
 #include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
 #include "reconstruct/geometry/theta_rectangle.hpp"
-#include "reconstruct/section/chunk_source.hpp"
+#include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
 #include "reconstruct/section/sampler.hpp"
@@ -48,6 +48,6 @@ struct Section {
 SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request);
 
 /// Throws what outline_section and the source throw.
-Section cut_section(ChunkSource& source, const SectionRequest& request);
+Section cut_section(BrickSource& source, const SectionRequest& request);
 
 }  // namespace biotomy::reconstruct

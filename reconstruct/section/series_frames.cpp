@@ -10,7 +10,7 @@
 namespace biotomy::reconstruct {
 namespace {
 
-std::vector<std::optional<PixelGrid>> grids_of(const ChunkSource& source, const Series& series,
+std::vector<std::optional<PixelGrid>> grids_of(const BrickSource& source, const Series& series,
                                                const SectionStyle& style) {
   std::vector<std::optional<PixelGrid>> grids;
   for (const SeriesFrame& frame : series.frames) {
@@ -46,13 +46,13 @@ std::string longest_label(const Series& series) {
   return longest;
 }
 
-int type_of(const ChunkSource& source) {
+int type_of(const BrickSource& source) {
   return source.bits() == 16 ? CV_16UC3 : CV_8UC3;
 }
 
 }  // namespace
 
-SeriesFrames::SeriesFrames(ChunkSource& source, Series series, const SectionStyle& style)
+SeriesFrames::SeriesFrames(BrickSource& source, Series series, const SectionStyle& style)
     : source_(source),
       series_(std::move(series)),
       style_(style),

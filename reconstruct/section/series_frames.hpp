@@ -6,7 +6,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "reconstruct/section/chunk_source.hpp"
+#include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/frame_canvas.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/series.hpp"
@@ -22,7 +22,7 @@ class SeriesFrames {
  public:
   /// `source` must outlive it. Throws SampleError when no plane of the series cuts the sample, or
   /// the frames would be larger than `style.max_bytes`.
-  SeriesFrames(ChunkSource& source, Series series, const SectionStyle& style);
+  SeriesFrames(BrickSource& source, Series series, const SectionStyle& style);
 
   std::size_t count() const { return series_.frames.size(); }
   cv::Size frame_size() const { return canvas_.size(); }
@@ -34,7 +34,7 @@ class SeriesFrames {
   cv::Mat draw(std::size_t index) const;
 
  private:
-  ChunkSource& source_;
+  BrickSource& source_;
   Series series_;
   SectionStyle style_;
   std::vector<std::optional<PixelGrid>> grids_;  // none where the plane does not cut the sample

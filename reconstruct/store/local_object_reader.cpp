@@ -92,4 +92,16 @@ void LocalObjectReader::read(const std::string& name, const ObjectVersion& versi
   }
 }
 
+// The kernel reads ahead into its page cache without making anybody wait.
+void LocalObjectReader::expect(const std::string& name, const ObjectVersion& version,
+                               std::uint64_t offset, std::uint64_t length) {
+  try {
+    const auto file = open(name, version);
+    ::posix_fadvise(file->descriptor.get(), static_cast<off_t>(offset), static_cast<off_t>(length),
+                    POSIX_FADV_WILLNEED);
+  } catch (const std::runtime_error&) {
+    return;  // the reading will say it
+  }
+}
+
 }  // namespace biotomy::reconstruct

@@ -19,6 +19,8 @@ class LocalObjectReader : public ObjectReader {
   std::optional<ObjectVersion> version(const std::string& name) override;
   void read(const std::string& name, const ObjectVersion& version, std::uint64_t offset,
             std::span<std::byte> out) override;
+  void expect(const std::string& name, const ObjectVersion& version, std::uint64_t offset,
+              std::uint64_t length) override;
 
  private:
   struct OpenFile {

@@ -41,6 +41,11 @@ class ObjectReader {
   /// SampleError when the object ends before or cannot be read.
   virtual void read(const std::string& name, const ObjectVersion& version, std::uint64_t offset,
                     std::span<std::byte> out) = 0;
+
+  /// These bytes will be read soon: whoever can may begin to fetch them. Returns at once and never
+  /// fails; what is wrong is told by the reading.
+  virtual void expect(const std::string& name, const ObjectVersion& version, std::uint64_t offset,
+                      std::uint64_t length) = 0;
 };
 
 }  // namespace biotomy::reconstruct

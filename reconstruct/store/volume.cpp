@@ -1,9 +1,13 @@
 #include "reconstruct/store/volume.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <string>
+#include <tuple>
 #include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/codecs.hpp"
@@ -21,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kMetadataName = "zarr.json";
 constexpr std::size_t kIndexCacheBytes = std::size_t{64} << 20;
 constexpr std::uint64_t kLargestMetadata = std::uint64_t{16} << 20;
+constexpr std::uint64_t kLongestRun = std::uint64_t{1} << 20;  // bytes read and decoded by one task
 constexpr int kMostReplacements = 3;  // of one shard within one read: a writer is not that quick
 
 std::int64_t nanoseconds_since(Clock::time_point start) {
@@ -29,9 +34,48 @@ std::int64_t nanoseconds_since(Clock::time_point start) {
 
 /// A shard as it was when its index was read.
 struct IndexedShard {
+  std::string name;
   ObjectVersion version;
   ShardIndex index;
 };
+
+/// A stored chunk among those that were asked for.
+struct Piece {
+  std::shared_ptr<const IndexedShard> shard;
+  ChunkRange range;
+  std::size_t which = 0;
+};
+
+bool follows(const Piece& before, const Piece& piece) {
+  return piece.shard == before.shard &&
+         piece.range.offset == before.range.offset + before.range.length;
+}
+
+/// Pieces that lie side by side in one shard.
+using Run = std::span<const Piece>;
+
+std::uint64_t bytes_of(Run run) {
+  return run.back().range.offset + run.back().range.length - run.front().range.offset;
+}
+
+/// Sorts the pieces and cuts them into runs that are read at once.
+std::vector<Run> runs_of(std::vector<Piece>& pieces) {
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return std::tie(a.shard->name, a.range.offset) < std::tie(b.shard->name, b.range.offset);
+  });
+  std::vector<Run> runs;
+  for (std::size_t first = 0; first < pieces.size();) {
+    std::size_t end = first + 1;
+    std::uint64_t bytes = pieces[first].range.length;
+    while (end < pieces.size() && follows(pieces[end - 1], pieces[end]) &&
+           bytes + pieces[end].range.length <= kLongestRun) {
+      bytes += pieces[end++].range.length;
+    }
+    runs.emplace_back(pieces.data() + first, end - first);
+    first = end;
+  }
+  return runs;
+}
 
 std::string read_text(ObjectReader& objects, const std::string& name) {
   for (int attempt = 0; attempt < kMostReplacements; ++attempt) {
@@ -110,6 +154,7 @@ struct Volume::State {
     }
     read(name, *version, version->size - index.size(), index);
     auto shard = std::make_shared<IndexedShard>();
+    shard->name = name;
     shard->version = *version;
     try {
       shard->index = parse_shard_index(index, version->size);
@@ -131,12 +176,11 @@ struct Volume::State {
     return load_shard(name);
   }
 
-  std::shared_ptr<const ChunkVoxels> decode(const std::string& name, ChunkIndex chunk,
-                                            const std::vector<std::byte>& encoded) {
+  void decode(const std::string& name, ChunkIndex chunk, std::span<const std::byte> encoded,
+              std::span<std::byte> voxels) {
     const auto start = Clock::now();
-    auto voxels = std::make_shared<ChunkVoxels>(codec.chunk_bytes());
     try {
-      codec.decode(encoded, *voxels);
+      codec.decode(encoded, voxels);
     } catch (const SampleError& error) {
       throw SampleError(objects->describe(name) + ": the chunk z " + std::to_string(chunk.z) +
                         ", y " + std::to_string(chunk.y) + ", x " + std::to_string(chunk.x) +
@@ -144,7 +188,41 @@ struct Volume::State {
     }
     statistics.decode_ns += nanoseconds_since(start);
     ++statistics.chunks_read;
-    return voxels;
+  }
+
+  std::string shard_name(int level, ChunkIndex chunk) const {
+    const BlockCount& per_shard = chunks_of_one_shard;
+    return level_path(level) + "/" +
+           shard_key(chunk.z / per_shard.z, chunk.y / per_shard.y, chunk.x / per_shard.x);
+  }
+
+  std::size_t place_in_shard(ChunkIndex chunk) const {
+    const BlockCount& per_shard = chunks_of_one_shard;
+    return static_cast<std::size_t>(
+        ((chunk.z % per_shard.z) * per_shard.y + chunk.y % per_shard.y) * per_shard.x +
+        chunk.x % per_shard.x);
+  }
+
+  /// Of each chunk its bytes' place, if it is stored; `on_nothing` is called for the others.
+  template <typename OnNothing, typename OnFailure>
+  std::vector<Piece> find(int level, std::span<const ChunkIndex> chunks, OnNothing&& on_nothing,
+                          OnFailure&& on_failure) {
+    std::vector<Piece> pieces;
+    pieces.reserve(chunks.size());
+    for (std::size_t which = 0; which < chunks.size(); ++which) {
+      try {
+        const auto found = shard(shard_name(level, chunks[which]));
+        const ChunkRange range = found ? found->index[place_in_shard(chunks[which])] : ChunkRange{};
+        if (range.stored()) {
+          pieces.push_back({found, range, which});
+        } else {
+          on_nothing(which);
+        }
+      } catch (const SampleError& error) {
+        on_failure(which, error);
+      }
+    }
+    return pieces;
   }
 };
 
@@ -195,24 +273,19 @@ const ReadStatistics& Volume::statistics() const {
 }
 
 std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chunk) const {
-  const BlockCount& per_shard = state_->chunks_of_one_shard;
-  const std::string name =
-      level_path(level) + "/" +
-      shard_key(chunk.z / per_shard.z, chunk.y / per_shard.y, chunk.x / per_shard.x);
-  const std::int64_t place =
-      ((chunk.z % per_shard.z) * per_shard.y + chunk.y % per_shard.y) * per_shard.x +
-      chunk.x % per_shard.x;
-
+  const std::string name = state_->shard_name(level, chunk);
   auto shard = state_->shard(name);
   for (int attempt = 0; shard && attempt < kMostReplacements; ++attempt) {
-    const ChunkRange range = shard->index[static_cast<std::size_t>(place)];
+    const ChunkRange range = shard->index[state_->place_in_shard(chunk)];
     if (!range.stored()) {
       return nullptr;
     }
     std::vector<std::byte> encoded(range.length);
     try {
       state_->read(name, shard->version, range.offset, encoded);
-      return state_->decode(name, chunk, encoded);
+      auto voxels = std::make_shared<ChunkVoxels>(state_->codec.chunk_bytes());
+      state_->decode(name, chunk, encoded, *voxels);
+      return voxels;
     } catch (const ObjectReplaced&) {
       shard = state_->load_shard(name);
     }
@@ -221,6 +294,63 @@ std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chun
     throw SampleError(state_->objects->describe(name) + ": keeps changing while it is read");
   }
   return nullptr;
+}
+
+void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const OnChunk& on_chunk,
+                         const OnDamage& on_damage) const {
+  const auto fail = [&](std::size_t which, const SampleError& error) {
+    if (!on_damage) {
+      throw SampleError(error);
+    }
+    on_damage(which, error);
+  };
+  // One by one: a chunk whose shard was replaced meanwhile, or whose run can't be read as a whole.
+  const auto read_alone = [&](const Piece& piece) {
+    try {
+      const auto voxels = read_chunk(level, wanted[piece.which]);
+      on_chunk(piece.which, voxels ? std::span<const std::byte>(*voxels) : std::span<std::byte>());
+    } catch (const SampleError& error) {
+      fail(piece.which, error);
+    }
+  };
+  const auto read_run = [&](Run run) {
+    thread_local std::vector<std::byte> encoded;
+    thread_local std::vector<std::byte> voxels;
+    encoded.resize(bytes_of(run));
+    voxels.resize(state_->codec.chunk_bytes());
+    const IndexedShard& shard = *run.front().shard;
+    try {
+      state_->read(shard.name, shard.version, run.front().range.offset, encoded);
+    } catch (const std::runtime_error&) {
+      std::for_each(run.begin(), run.end(), read_alone);
+      return;
+    }
+    for (const Piece& piece : run) {
+      try {
+        state_->decode(shard.name, wanted[piece.which],
+                       std::span(encoded).subspan(piece.range.offset - run.front().range.offset,
+                                                  piece.range.length),
+                       voxels);
+      } catch (const SampleError& error) {
+        fail(piece.which, error);
+        continue;
+      }
+      on_chunk(piece.which, voxels);
+    }
+  };
+  std::vector<Piece> pieces = state_->find(
+      level, wanted, [&](std::size_t which) { on_chunk(which, {}); }, fail);
+  const std::vector<Run> runs = runs_of(pieces);
+  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) { read_run(runs[i]); });
+}
+
+void Volume::expect_chunks(int level, std::span<const ChunkIndex> soon) const {
+  const auto ignore = [](std::size_t, const auto&...) {};  // the reading will say it
+  std::vector<Piece> pieces = state_->find(level, soon, ignore, ignore);
+  for (const Run run : runs_of(pieces)) {
+    state_->objects->expect(run.front().shard->name, run.front().shard->version,
+                            run.front().range.offset, bytes_of(run));
+  }
 }
 
 }  // namespace biotomy::reconstruct

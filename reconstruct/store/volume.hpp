@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/cuboid.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
@@ -54,6 +57,21 @@ class Volume {
   /// Reads and decodes one chunk of a level; one that was never written is null (all fill value).
   /// Throws SampleError on a damaged shard or chunk.
   std::shared_ptr<const ChunkVoxels> read_chunk(int level, ChunkIndex index) const;
+
+  /// Takes one of many chunks: `which` counts in the order of the indices asked for; `voxels` is
+  /// laid out as ChunkVoxels and lasts as long as the call; empty for a chunk that was never
+  /// written.
+  using OnChunk = std::function<void(std::size_t which, std::span<const std::byte> voxels)>;
+  using OnDamage = std::function<void(std::size_t which, const SampleError& error)>;
+
+  /// Reads and decodes many chunks of a level, each index once. What lies side by side in a shard
+  /// is read at once; chunks are decoded, and both functions called, on many threads and in any
+  /// order. A chunk that is damaged goes to `on_damage`, or, without one, is thrown.
+  void read_chunks(int level, std::span<const ChunkIndex> wanted, const OnChunk& on_chunk,
+                   const OnDamage& on_damage = {}) const;
+
+  /// These will be read soon: their bytes may be fetched from the disk meanwhile. Returns at once.
+  void expect_chunks(int level, std::span<const ChunkIndex> soon) const;
 
   const ReadStatistics& statistics() const;
 

@@ -61,7 +61,7 @@ struct Reference {
                                 (dy == 0 ? 1.0 - part[1] : part[1]) *
                                 (dz == 0 ? 1.0 - part[2] : part[2]);
           if (weight > 0.0) {
-            sum += weight * source.level(low[0] + dx, low[1] + dy, low[2] + dz, colour);
+            sum += weight * source.voxel(low[0] + dx, low[1] + dy, low[2] + dz, colour);
           }
         }
       }
@@ -124,7 +124,7 @@ void expect_agreement_on_random_planes(MemorySource& source, BasisKind kind, uns
 
 TEST(Sampler, AgreesWithTheDefinitionOnRandomPlanesOf8Bits) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 1);
+  source.voxel = noise(source.box.size, 255, 1);
   expect_agreement_on_random_planes(source, BasisKind::layer, 11);
   expect_agreement_on_random_planes(source, BasisKind::xz, 12);
 }
@@ -134,7 +134,7 @@ TEST(Sampler, AgreesWithTheDefinitionOnRandomPlanesOf16BitsInAnisotropicVoxels) 
   source.bit_count = 16;
   source.box = {{37, 29, 11}, {3.3, 4.1, 17.0}};
   source.chunk_size = {4, 8, 16};
-  source.level = noise(source.box.size, 65535, 2);
+  source.voxel = noise(source.box.size, 65535, 2);
   expect_agreement_on_random_planes(source, BasisKind::layer, 13);
   expect_agreement_on_random_planes(source, BasisKind::xz, 14);
 }
@@ -142,7 +142,7 @@ TEST(Sampler, AgreesWithTheDefinitionOnRandomPlanesOf16BitsInAnisotropicVoxels) 
 TEST(Sampler, AgreesWithTheDefinitionWhereChunksAreOneVoxelDeep) {
   MemorySource source;
   source.chunk_size = {1, 16, 16};
-  source.level = noise(source.box.size, 255, 3);
+  source.voxel = noise(source.box.size, 255, 3);
   expect_agreement_on_random_planes(source, BasisKind::layer, 15);
 }
 
@@ -151,7 +151,7 @@ TEST(Sampler, ASectionAlongALayerIsThatLayerToTheBit) {
     MemorySource source;
     source.bit_count = bits;
     source.box = {{40, 30, 20}, {0.7, 0.7, 0.1}};
-    source.level = noise(source.box.size, source.most(), 4);
+    source.voxel = noise(source.box.size, source.most(), 4);
     for (int k = 0; k < 20; ++k) {
       const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, k * 0.1});
       const PixelGrid grid = grid_for(plane, source.box, 0.7);
@@ -161,7 +161,7 @@ TEST(Sampler, ASectionAlongALayerIsThatLayerToTheBit) {
       for (int v = 0; v < 30; ++v) {
         for (int u = 0; u < 40; ++u) {
           for (int c = 0; c < 3; ++c) {
-            ASSERT_EQ(level_at(image, u, v, c), source.level(u, v, k, c));
+            ASSERT_EQ(level_at(image, u, v, c), source.voxel(u, v, k, c));
           }
         }
       }
@@ -183,7 +183,7 @@ TEST(Sampler, ASectionAlongALayerReadsNoOtherLayersChunks) {
 
 TEST(Sampler, PlanesAlongXAndZAreReslicedToTheBit) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 5);
+  source.voxel = noise(source.box.size, 255, 5);
   for (int j = 0; j < 30; j += 7) {
     const Plane plane = Plane::from_normal({0, 1, 0}, {0, j * 10.0, 0});
     const cv::Mat image =
@@ -192,7 +192,7 @@ TEST(Sampler, PlanesAlongXAndZAreReslicedToTheBit) {
     ASSERT_EQ(image.size(), cv::Size(40, 20));
     for (int k = 0; k < 20; ++k) {
       for (int i = 0; i < 40; ++i) {
-        ASSERT_EQ(level_at(image, i, k, 1), source.level(i, j, k, 1));
+        ASSERT_EQ(level_at(image, i, k, 1), source.voxel(i, j, k, 1));
       }
     }
   }
@@ -200,7 +200,7 @@ TEST(Sampler, PlanesAlongXAndZAreReslicedToTheBit) {
 
 TEST(Sampler, PlanesAlongYAndZAreReslicedToTheBit) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 6);
+  source.voxel = noise(source.box.size, 255, 6);
   const Plane plane = Plane::from_normal({-1, 0, 0}, {390, 0, 0});
   const cv::Mat image =
       sample_grid(source, grid_for(plane, source.box, 10.0), Interpolation::linear, kBackground)
@@ -208,14 +208,14 @@ TEST(Sampler, PlanesAlongYAndZAreReslicedToTheBit) {
   ASSERT_EQ(image.size(), cv::Size(30, 20));
   for (int k = 0; k < 20; ++k) {
     for (int j = 0; j < 30; ++j) {
-      ASSERT_EQ(level_at(image, j, k, 2), source.level(39, j, k, 2));
+      ASSERT_EQ(level_at(image, j, k, 2), source.voxel(39, j, k, 2));
     }
   }
 }
 
 TEST(Sampler, NearestTakesTheColourOfTheNearestVoxel) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 8);
+  source.voxel = noise(source.box.size, 255, 8);
   const Plane plane = Plane::from_normal({0.2, 0.3, 1}, 0.5 * source.box.extent());
   const PixelGrid grid = grid_for(plane, source.box, 7.0);
   const cv::Mat image = sample_grid(source, grid, Interpolation::nearest, kBackground).image;
@@ -231,7 +231,7 @@ TEST(Sampler, NearestTakesTheColourOfTheNearestVoxel) {
       }
       ++inside;
       ASSERT_EQ(level_at(image, u, v, 0),
-                source.level(static_cast<int>(std::lround(point.x / 10.0)),
+                source.voxel(static_cast<int>(std::lround(point.x / 10.0)),
                              static_cast<int>(std::lround(point.y / 10.0)),
                              static_cast<int>(std::lround(point.z / 10.0)), 0));
     }
@@ -241,7 +241,7 @@ TEST(Sampler, NearestTakesTheColourOfTheNearestVoxel) {
 
 TEST(Sampler, ChunksThatWereNeverWrittenAreZero) {
   MemorySource source;
-  source.level = [](int, int, int, int) { return 200; };
+  source.voxel = [](int, int, int, int) { return 200; };
   source.never_written = {{0, 0, 0}};
   const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 30});
   const cv::Mat image =
@@ -267,27 +267,27 @@ TEST(Sampler, CountsEachChunkOnceHoweverManyTilesAskForIt) {
 TEST(Sampler, TakesPixelsMuchLargerThanAChunk) {
   MemorySource source;
   source.chunk_size = {2, 2, 2};
-  source.level = noise(source.box.size, 255, 9);
+  source.voxel = noise(source.box.size, 255, 9);
   const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 50});
   const cv::Mat image =
       sample_grid(source, grid_for(plane, source.box, 130.0), Interpolation::linear, kBackground)
           .image;
   ASSERT_EQ(image.size(), cv::Size(4, 3));
-  EXPECT_EQ(level_at(image, 3, 2, 0), source.level(39, 26, 5, 0));
+  EXPECT_EQ(level_at(image, 3, 2, 0), source.voxel(39, 26, 5, 0));
 }
 
 TEST(Sampler, ReadsNothingBeyondASampleOfOneLayer) {
   MemorySource source;
   source.box.size.z = 1;
   source.chunk_size = {1, 8, 8};
-  source.level = noise(source.box.size, 255, 10);
+  source.voxel = noise(source.box.size, 255, 10);
   const Vector3 origin{0, 0, -1e-6};  // a ten-millionth of a voxel off the layer: forgiven
   const PixelGrid grid =
       pixel_grid({origin, {{1, 0, 0}, {0, 1, 0}}, 390.0, 290.0}, 10.0, 3, 1'000'000);
   const cv::Mat image = sample_grid(source, grid, Interpolation::linear, kBackground).image;
   for (int v = 0; v < 30; ++v) {
     for (int u = 0; u < 40; ++u) {
-      ASSERT_EQ(level_at(image, u, v, 2), source.level(u, v, 0, 2));
+      ASSERT_EQ(level_at(image, u, v, 2), source.voxel(u, v, 0, 2));
     }
   }
 }

@@ -21,7 +21,7 @@ SectionRequest request_for(const Plane& plane, BasisKind kind = BasisKind::layer
 
 TEST(Section, IsTheSamePictureWhateverTheOrderOfThePoints) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 1);
+  source.voxel = noise(source.box.size, 255, 1);
   std::array<Vector3, 3> points{Vector3{3.1, 250.7, 12.3}, Vector3{313.3, 8.9, 60.01},
                                 Vector3{201.7, 202.2, 155.5}};
   for (const BasisKind kind : {BasisKind::layer, BasisKind::xz}) {
@@ -42,7 +42,7 @@ TEST(Section, IsTheSamePictureWhateverTheOrderOfThePoints) {
 
 TEST(Section, IsTheSamePictureWhateverTheSignOfTheNormal) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 2);
+  source.voxel = noise(source.box.size, 255, 2);
   const cv::Mat one =
       cut_section(source, request_for(Plane::from_normal({1, 2, -3}, {200, 140, 90}))).image;
   const cv::Mat other =
@@ -63,7 +63,7 @@ TEST(Section, HasPixelsOfTheLeastSpacingUnlessAskedOtherwise) {
 
 TEST(Section, IsBackgroundOutsideThePolygon) {
   MemorySource source;
-  source.level = [](int, int, int, int) { return 100; };
+  source.voxel = [](int, int, int, int) { return 100; };
   SectionRequest request = request_for(Plane::from_normal({1, 1, 1}, {100, 0, 0}));
   request.style.background = {1, 2, 3};
   const Section section = cut_section(source, request);

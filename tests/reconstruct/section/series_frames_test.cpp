@@ -41,7 +41,7 @@ TEST(SeriesFrames, AreAllOfOneSize) {
 
 TEST(SeriesFrames, ShowTheLayersInASeriesAlongZ) {
   MemorySource source;
-  source.level = noise(source.box.size, 255, 1);
+  source.voxel = noise(source.box.size, 255, 1);
   const SeriesFrames frames(source, translation_series(along_z(), BasisKind::layer, source.box),
                             grey_blue_style());
   ASSERT_EQ(frames.count(), 20U);
@@ -49,14 +49,14 @@ TEST(SeriesFrames, ShowTheLayersInASeriesAlongZ) {
   const int left = (frames.frame_size().width - 40) / 2;
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
-      ASSERT_EQ(frame.at<cv::Vec3b>(y, left + x)[1], source.level(x, y, 13, 1));
+      ASSERT_EQ(frame.at<cv::Vec3b>(y, left + x)[1], source.voxel(x, y, 13, 1));
     }
   }
 }
 
 TEST(SeriesFrames, AreBackgroundWhereThePlaneMisses) {
   MemorySource source;
-  source.level = [](int, int, int, int) { return 255; };
+  source.voxel = [](int, int, int, int) { return 255; };
   Translation translation = along_z();
   translation.from = 0.0;
   translation.to = 400.0;

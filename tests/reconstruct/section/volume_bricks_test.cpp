@@ -1,4 +1,4 @@
-#include "reconstruct/section/cached_volume.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -24,7 +24,7 @@ cv::Mat layer_image(int layer) {
   return image;
 }
 
-TEST(CachedVolumeSource, GivesTheLayersOfAStoredSampleBackAsSections) {
+TEST(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
   const TemporaryFolder folder;
   SampleDescription description;
   description.name = "noise";
@@ -41,8 +41,8 @@ TEST(CachedVolumeSource, GivesTheLayersOfAStoredSampleBackAsSections) {
   VolumeWriter(sample, layout).append(kLayers, true);
 
   const Volume volume = Volume::open(sample.volume_path());
-  CachedVolume source(volume, 1'000'000);
-  EXPECT_EQ(source.chunk_shape(), layout.chunk);
+  VolumeBricks source(volume, 1'000'000);
+  EXPECT_EQ(source.brick_shape(), layout.chunk);
   EXPECT_EQ(source.bits(), 8);
   for (int layer = 1; layer <= kLayers; ++layer) {
     const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, (layer - 1) * 25.0});

@@ -1,0 +1,66 @@
+#include "reconstruct/section/texel_blocks.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr int kVectorBytes = 16;
+
+int divide_up(int size, int side) {
+  return (size + side - 1) / side;
+}
+
+/// A row of voxels into the rows of its blocks, by loads and stores of whole vectors: what a store
+/// writes too much the next one overwrites, so blocks' rows are filled from the first to the last.
+void lay_row_in_vectors(const std::byte* voxels, int blocks, int step, int block_bytes,
+                        int row_bytes, std::byte* out) {
+  for (int block = 0; block < blocks; ++block) {
+    for (int part = 0; part < row_bytes; part += kVectorBytes) {
+      std::memcpy(out + part, voxels + part, kVectorBytes);
+    }
+    voxels += step;
+    out += block_bytes;
+  }
+}
+
+/// Likewise at the end of the chunk, where no byte too many may be read.
+void lay_row_exactly(const std::byte* voxels, int row_of_voxels, int blocks, int step,
+                     int block_bytes, int row_bytes, std::byte* out) {
+  for (int block = 0; block < blocks; ++block) {
+    const int left = row_of_voxels - block * step;
+    std::memcpy(out, voxels + std::ptrdiff_t{block} * step,
+                static_cast<std::size_t>(std::min(left, row_bytes)));
+    out += block_bytes;
+  }
+}
+
+}  // namespace
+
+TexelBlocks::TexelBlocks(const std::array<int, 3>& shape, int bits)
+    : shape_(shape),
+      level_bytes_(bits / 8),
+      blocks_x_(divide_up(shape[2], kSide)),
+      blocks_y_(divide_up(shape[1], kSide)) {}
+
+void TexelBlocks::lay_out(std::span<const std::byte> voxels, std::byte* brick) const {
+  const int step = kSide * texel_bytes();
+  const int row_of_voxels = shape_[2] * texel_bytes();
+  const std::byte* const end = voxels.data() + voxels.size();
+  const std::byte* in = voxels.data();
+  for (int z = 0; z < shape_[0]; ++z) {
+    std::byte* const layer = brick + std::ptrdiff_t{z} * layer_bytes();
+    for (int y = 0; y < shape_[1]; ++y) {
+      std::byte* const out = layer + along_y(y);
+      if (end - in >= std::ptrdiff_t{blocks_x_} * step + 2 * kVectorBytes) {
+        lay_row_in_vectors(in, blocks_x_, step, block_bytes(), row_bytes(), out);
+      } else {
+        lay_row_exactly(in, row_of_voxels, blocks_x_, step, block_bytes(), row_bytes(), out);
+      }
+      in += row_of_voxels;
+    }
+  }
+}
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,110 @@
+#include "reconstruct/section/texel_kernels.hpp"
+
+#include "reconstruct/section/texel_kernels_scalar.hpp"
+
+// Highway compiles this file once for each vector width. Vectors whose length is known only when
+// the program runs have no blocks to rely on; such processors have NEON as well.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reconstruct/section/texel_kernels.cpp"
+#ifndef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#endif
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#if HWY_TARGET != HWY_SCALAR
+#include "reconstruct/section/cubic_kernel-inl.hpp"
+#include "reconstruct/section/linear_kernel-inl.hpp"
+#include "reconstruct/section/pack_kernel-inl.hpp"
+#include "reconstruct/section/place_kernel-inl.hpp"
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace biotomy::reconstruct::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR
+namespace kernels = scalar;
+#else
+namespace kernels = HWY_NAMESPACE;
+#endif
+
+void place_run_8(const TexelRun& run, PixelPlaces<std::uint8_t>& places, std::size_t first) {
+  kernels::place_run(run, places, first);
+}
+void mix_linear_8(const PixelPlaces<std::uint8_t>& places, std::size_t count,
+                  std::uint8_t* pixels) {
+  kernels::mix_linear(places, count, pixels);
+}
+void mix_cubic_8(const std::uint8_t* texels, const std::array<float, 3>& part,
+                 std::uint8_t* pixel) {
+  kernels::mix_cubic(texels, part, pixel);
+}
+void pack_pixels_8(const std::uint8_t* pixels, std::size_t count, std::uint8_t* rgb) {
+  kernels::pack_pixels(pixels, count, rgb);
+}
+void place_run_16(const TexelRun& run, PixelPlaces<std::uint16_t>& places, std::size_t first) {
+  kernels::place_run(run, places, first);
+}
+void mix_linear_16(const PixelPlaces<std::uint16_t>& places, std::size_t count,
+                   std::uint16_t* pixels) {
+  kernels::mix_linear(places, count, pixels);
+}
+void mix_cubic_16(const std::uint16_t* texels, const std::array<float, 3>& part,
+                  std::uint16_t* pixel) {
+  kernels::mix_cubic(texels, part, pixel);
+}
+void pack_pixels_16(const std::uint16_t* pixels, std::size_t count, std::uint16_t* rgb) {
+  kernels::pack_pixels(pixels, count, rgb);
+}
+
+}  // namespace biotomy::reconstruct::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace biotomy::reconstruct {
+
+HWY_EXPORT(place_run_8);
+HWY_EXPORT(mix_linear_8);
+HWY_EXPORT(mix_cubic_8);
+HWY_EXPORT(pack_pixels_8);
+HWY_EXPORT(place_run_16);
+HWY_EXPORT(mix_linear_16);
+HWY_EXPORT(mix_cubic_16);
+HWY_EXPORT(pack_pixels_16);
+
+template <>
+void place_run(const TexelRun& run, PixelPlaces<std::uint8_t>& places, std::size_t first) {
+  HWY_DYNAMIC_DISPATCH(place_run_8)(run, places, first);
+}
+template <>
+void mix_linear(const PixelPlaces<std::uint8_t>& places, std::size_t count, std::uint8_t* pixels) {
+  HWY_DYNAMIC_DISPATCH(mix_linear_8)(places, count, pixels);
+}
+template <>
+void mix_cubic(const std::uint8_t* texels, const std::array<float, 3>& part, std::uint8_t* pixel) {
+  HWY_DYNAMIC_DISPATCH(mix_cubic_8)(texels, part, pixel);
+}
+template <>
+void pack_pixels(const std::uint8_t* pixels, std::size_t count, std::uint8_t* rgb) {
+  HWY_DYNAMIC_DISPATCH(pack_pixels_8)(pixels, count, rgb);
+}
+template <>
+void place_run(const TexelRun& run, PixelPlaces<std::uint16_t>& places, std::size_t first) {
+  HWY_DYNAMIC_DISPATCH(place_run_16)(run, places, first);
+}
+template <>
+void mix_linear(const PixelPlaces<std::uint16_t>& places, std::size_t count,
+                std::uint16_t* pixels) {
+  HWY_DYNAMIC_DISPATCH(mix_linear_16)(places, count, pixels);
+}
+template <>
+void mix_cubic(const std::uint16_t* texels, const std::array<float, 3>& part,
+               std::uint16_t* pixel) {
+  HWY_DYNAMIC_DISPATCH(mix_cubic_16)(texels, part, pixel);
+}
+template <>
+void pack_pixels(const std::uint16_t* pixels, std::size_t count, std::uint16_t* rgb) {
+  HWY_DYNAMIC_DISPATCH(pack_pixels_16)(pixels, count, rgb);
+}
+
+}  // namespace biotomy::reconstruct
+#endif

@@ -1,0 +1,82 @@
+#include "reconstruct/section/volume_bricks.hpp"
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+template <typename Level>
+std::vector<std::byte> painted(std::size_t voxels, const std::array<std::uint8_t, 3>& colour) {
+  constexpr int kScale = sizeof(Level) == 1 ? 1 : 257;
+  std::vector<std::byte> bytes(voxels * colour.size() * sizeof(Level));
+  auto* level = reinterpret_cast<Level*>(bytes.data());
+  for (std::size_t i = 0; i < voxels * colour.size(); ++i) {
+    level[i] = static_cast<Level>(colour[i % colour.size()] * kScale);
+  }
+  return bytes;
+}
+
+std::size_t voxels_of(const VolumeLayout& layout) {
+  return static_cast<std::size_t>(layout.chunk[0]) * static_cast<std::size_t>(layout.chunk[1]) *
+         static_cast<std::size_t>(layout.chunk[2]);
+}
+
+}  // namespace
+
+VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
+                           const DamagePolicy& policy)
+    : volume_(volume),
+      policy_(policy),
+      blocks_(volume.layout().chunk, volume.bits()),
+      pool_(blocks_.brick_bytes(), blocks_.slack()),
+      cache_(
+          capacity_bytes, blocks_.brick_bytes(),
+          [this](int level, std::span<const ChunkIndex> wanted) { return fetch(level, wanted); }) {}
+
+std::vector<TexelBrick> VolumeBricks::bricks(int level, std::span<const ChunkIndex> wanted) {
+  return cache_.get(level, wanted);
+}
+
+void VolumeBricks::expect(int level, std::span<const ChunkIndex> soon) {
+  volume_.expect_chunks(level, cache_.missing(level, soon));
+}
+
+std::vector<TexelBrick> VolumeBricks::fetch(int level, std::span<const ChunkIndex> wanted) {
+  std::vector<TexelBrick> bricks(wanted.size());
+  const auto keep = [&](std::size_t which, std::span<const std::byte> voxels) {
+    bricks[which] = voxels.empty() ? nullptr : brick_of(voxels);
+  };
+  const auto replace = [&](std::size_t which, const SampleError& error) {
+    note_damage(error.what());
+    bricks[which] = damaged_brick();
+  };
+  volume_.read_chunks(level, wanted, keep,
+                      policy_.tolerate ? Volume::OnDamage(replace) : Volume::OnDamage());
+  return bricks;
+}
+
+std::shared_ptr<std::byte> VolumeBricks::brick_of(std::span<const std::byte> voxels) {
+  std::shared_ptr<std::byte> brick = pool_.allocate();
+  blocks_.lay_out(voxels, brick.get());
+  return brick;
+}
+
+std::shared_ptr<std::byte> VolumeBricks::damaged_brick() {
+  const std::size_t voxels = voxels_of(volume_.layout());
+  return brick_of(volume_.bits() == 16 ? painted<std::uint16_t>(voxels, policy_.colour)
+                                       : painted<std::uint8_t>(voxels, policy_.colour));
+}
+
+void VolumeBricks::note_damage(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  if (damage_.chunks++ == 0) {
+    damage_.first = what;
+  }
+}
+
+Damage VolumeBricks::damage() const {
+  const std::lock_guard lock(mutex_);
+  return damage_;
+}
+
+}  // namespace biotomy::reconstruct

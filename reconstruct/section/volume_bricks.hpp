@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reconstruct/section/block_pool.hpp"
+#include "reconstruct/section/brick_cache.hpp"
+#include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/store/volume.hpp"
+
+namespace biotomy::reconstruct {
+
+/// What is to be done with what can't be read.
+struct DamagePolicy {
+  bool tolerate = false;  ///< instead of throwing: fill the brick with `colour`, count it
+  std::array<std::uint8_t, 3> colour{};  ///< red, green, blue of 8 bits
+};
+
+/// What was tolerated.
+struct Damage {
+  std::int64_t chunks = 0;
+  std::string first;  ///< what was wrong with the first
+};
+
+/// A volume read through a cache of decoded bricks. The volume must outlive it.
+class VolumeBricks final : public BrickSource {
+ public:
+  VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy = {});
+
+  const Cuboid& cuboid() const override { return volume_.cuboid(); }
+  int bits() const override { return volume_.bits(); }
+  std::array<int, 3> brick_shape() const override { return volume_.layout().chunk; }
+  int levels() const override { return volume_.levels(); }
+  const PyramidLevel& level(int number) const override { return volume_.level(number); }
+  std::size_t capacity_bytes() const override { return cache_.capacity_bytes(); }
+  std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted) override;
+  void expect(int level, std::span<const ChunkIndex> soon) override;
+
+  Damage damage() const;
+
+ private:
+  std::vector<TexelBrick> fetch(int level, std::span<const ChunkIndex> wanted);
+  std::shared_ptr<std::byte> brick_of(std::span<const std::byte> voxels);
+  std::shared_ptr<std::byte> damaged_brick();
+  void note_damage(const std::string& what);
+
+  const Volume& volume_;
+  DamagePolicy policy_;
+  TexelBlocks blocks_;
+  BlockPool pool_;
+  BrickCache cache_;
+  mutable std::mutex mutex_;
+  Damage damage_;
+};
+
+}  // namespace biotomy::reconstruct
