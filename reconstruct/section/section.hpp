@@ -18,7 +18,7 @@ namespace biotomy::reconstruct {
 
 /// How sections are drawn, whatever the plane.
 struct SectionStyle {
-  ThetaKind theta = ThetaKind::bounding;
+  ThetaChoice theta = theta::Bounding{};
   Interpolation interpolation = Interpolation::linear;
   std::optional<double> pixel;  ///< micrometres; the least spacing if none
   Colour background{0, 0, 0};

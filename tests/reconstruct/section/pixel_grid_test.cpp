@@ -1,12 +1,17 @@
 #include "reconstruct/section/pixel_grid.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 #include <gmock/gmock.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/geometry/section_polygon.hpp"
+#include "tests/reconstruct/geometry/random_polygon.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -108,6 +113,37 @@ TEST(ColumnsInside, StayWithinTheRangeAskedFor) {
   const ColumnRange inside = columns_inside({{0, 0, 0}, {0.1, 0, 0}}, {20, 30}, {10, 10, 10});
   EXPECT_EQ(inside.first, 20);
   EXPECT_EQ(inside.last, 30);
+}
+
+// Background along an edge of a picture that promises none is seen at once.
+TEST(ColumnsInside, AreAllOfAnInscribedRectangle) {
+  std::mt19937 random(9);
+  std::int64_t pixels = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Cuboid cuboid = tests::random_cuboid(random);
+    const Plane plane = tests::random_plane(cuboid, random);
+    const auto polygon = section_polygon(plane, cuboid);
+    const SectionBasis basis = section_basis(i % 2 == 0 ? BasisKind::layer : BasisKind::xz, plane);
+    const double least = std::min({cuboid.spacing.x, cuboid.spacing.y, cuboid.spacing.z});
+    for (const ThetaChoice& choice :
+         {ThetaChoice(theta::Inscribed{}), ThetaChoice(theta::InscribedAny{}),
+          ThetaChoice(theta::InscribedAtEdge{i % 3})}) {
+      const PixelGrid grid =
+          pixel_grid(theta_rectangle(choice, polygon, basis), least, 3, 1'000'000'000'000);
+      const auto expect_all_inside = [&](int row) {
+        const ColumnRange inside =
+            columns_inside(voxel_row(grid, cuboid, row), {0, grid.columns}, cuboid.size);
+        EXPECT_EQ(inside.first, 0) << i << " row " << row;
+        EXPECT_EQ(inside.last, grid.columns) << i << " row " << row;
+      };
+      for (int row = 0; row < grid.rows; row += std::max(1, grid.rows / 50)) {
+        expect_all_inside(row);
+      }
+      expect_all_inside(grid.rows - 1);
+      pixels += std::int64_t{grid.columns} * grid.rows;
+    }
+  }
+  EXPECT_GT(pixels, 1'000'000);
 }
 
 }  // namespace
