@@ -45,6 +45,7 @@ std::vector<Enclosure> enclosures(std::span<const HalfPlane> sides) {
 std::vector<RectangleLimit> limits_of(std::span<const Enclosure> enclosures,
                                       std::span<const HalfPlane> sides) {
   std::vector<RectangleLimit> limits;
+  limits.reserve(enclosures.size());
   for (const Enclosure& enclosure : enclosures) {
     RectangleLimit limit{0.0, 0.0, enclosure.c};
     for (std::size_t i = 0; i < enclosure.sides.size(); ++i) {

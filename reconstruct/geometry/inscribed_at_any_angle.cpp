@@ -62,6 +62,7 @@ double reduced(double angle) {
 
 std::vector<double> flush_angles(const std::vector<HalfPlane>& sides) {
   std::vector<double> angles;
+  angles.reserve(sides.size());
   for (const HalfPlane& side : sides) {
     angles.push_back(reduced(std::atan2(side.b, side.a)));
   }
@@ -140,6 +141,7 @@ class Candidates {
 void add_candidates(const Interval& interval, const std::vector<HalfPlane>& sides,
                     const std::vector<Enclosure>& enclosures, std::vector<double>& angles) {
   std::vector<TurningLimit> limits;
+  limits.reserve(enclosures.size());
   const std::vector<HalfPlane> in_the_middle = turned(sides, interval.middle());
   for (const Enclosure& enclosure : enclosures) {
     limits.push_back(turning_limit(enclosure, in_the_middle));
@@ -176,6 +178,7 @@ PlanarRectangle largest_rectangle_at_any_angle(const PlanarPolygon& polygon) {
     add_candidates(interval, sides, all, angles);
   }
   std::vector<double> areas;
+  areas.reserve(angles.size());
   for (const double angle : angles) {
     areas.push_back(area_at(angle, sides, all));
   }

@@ -80,12 +80,12 @@ std::optional<PlanarPoint> middle_of(const std::vector<HalfPlane>& bounds, doubl
   return middle;
 }
 
-PlanarPoint place(const std::vector<HalfPlane>& sides, const RectangleShape& shape,
-                  double diameter) {
-  const std::vector<HalfPlane> bounds = made_narrower(sides, shape);
+// What `find` finds with the least tolerance, micrometres, that lets it find anything.
+template <typename Find>
+auto within_rounding(double diameter, const Find& find) {
   for (double tolerance = kRounding; tolerance <= kMostRounding; tolerance *= 10.0) {
-    if (const auto corner = middle_of(bounds, tolerance * diameter)) {
-      return *corner;
+    if (const auto found = find(tolerance * diameter)) {
+      return *found;
     }
   }
   refuse_thin_polygon();
@@ -114,17 +114,19 @@ std::vector<RectangleLimit> limits_on_axis(const std::vector<HalfPlane>& sides) 
   return limits;
 }
 
-double place_on_axis(const std::vector<HalfPlane>& sides, const RectangleShape& shape) {
+// A side that is nearly along the axis turns the rounding error of the height into a long way on
+// the axis: without tolerance it would push the rectangle out of the others.
+std::optional<double> middle_on_axis(const std::vector<HalfPlane>& bounds, double tolerance) {
   double first = -std::numeric_limits<double>::infinity();
   double last = std::numeric_limits<double>::infinity();
-  for (const HalfPlane& bound : made_narrower(sides, shape)) {
+  for (const HalfPlane& bound : bounds) {
     if (bound.a > kHorizontal) {
-      last = std::min(last, bound.c / bound.a);
+      last = std::min(last, (bound.c + tolerance) / bound.a);
     } else if (bound.a < -kHorizontal) {
-      first = std::max(first, bound.c / bound.a);
+      first = std::max(first, (bound.c + tolerance) / bound.a);
     }
   }
-  return 0.5 * (first + last);
+  return first <= last ? std::optional(0.5 * (first + last)) : std::nullopt;
 }
 
 // The same rectangle along axes turned back by 90°.
@@ -148,7 +150,10 @@ PlanarRectangle largest_rectangle(const PlanarPolygon& polygon, double angle) {
   if (shape.area() == 0.0) {
     refuse_thin_polygon();
   }
-  return {angle, place(sides, shape, polygon.diameter()), shape.width, shape.height};
+  const std::vector<HalfPlane> bounds = made_narrower(sides, shape);
+  const PlanarPoint corner = within_rounding(
+      polygon.diameter(), [&](double tolerance) { return middle_of(bounds, tolerance); });
+  return {angle, corner, shape.width, shape.height};
 }
 
 PlanarRectangle largest_rectangle_on_edge(const PlanarPolygon& polygon, std::size_t edge) {
@@ -163,8 +168,10 @@ PlanarRectangle largest_rectangle_on_edge(const PlanarPolygon& polygon, std::siz
   if (shape.area() == 0.0) {
     refuse_thin_polygon();
   }
-  PlanarRectangle rectangle{
-      angle, {place_on_axis(sides, shape), height_of_edge}, shape.width, shape.height};
+  const std::vector<HalfPlane> bounds = made_narrower(sides, shape);
+  const double x = within_rounding(
+      polygon.diameter(), [&](double tolerance) { return middle_on_axis(bounds, tolerance); });
+  PlanarRectangle rectangle{angle, {x, height_of_edge}, shape.width, shape.height};
   if (rectangle.angle <= -kEighthTurn) {
     rectangle.angle += 2.0 * M_PI;
   }

@@ -90,6 +90,7 @@ std::vector<HalfPlane> turned(std::span<const HalfPlane> sides, double angle) {
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);
   std::vector<HalfPlane> result;
+  result.reserve(sides.size());
   for (const HalfPlane& side : sides) {
     result.push_back({side.a * cosine + side.b * sine, side.b * cosine - side.a * sine, side.c});
   }

@@ -85,6 +85,7 @@ class Chooser {
  private:
   std::vector<PlanarPoint> points() const {
     std::vector<PlanarPoint> points;
+    points.reserve(polygon_.size());
     for (const Vector3& vertex : polygon_) {
       const Vector3 from_first = vertex - polygon_.front();
       points.push_back({dot(from_first, basis_.p), dot(from_first, basis_.q)});

@@ -44,7 +44,8 @@ struct Section {
   SampleStatistics statistics;
 };
 
-/// Throws SampleError where the plane does not cut the cuboid, or the picture would be too large.
+/// Throws SampleError where the plane does not cut the cuboid, or the picture would be too large,
+/// and what theta_rectangle throws.
 SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request);
 
 /// Throws what outline_section and the source throw.

@@ -27,7 +27,8 @@ class Library : public testing::Test {
     expect_done({BIOTOMY_CMAKE, "--install", BIOTOMY_BUILD, "--component", "development",
                  "--prefix", tree_ / "installed"});
     expect_done({BIOTOMY_CMAKE, "-S", BIOTOMY_EXAMPLE, "-B", tree_ / "build",
-                 "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_COMPILER=" BIOTOMY_COMPILER,
+                 "-DCMAKE_BUILD_TYPE=Release",
+                 std::string("-DCMAKE_CXX_COMPILER=") + BIOTOMY_COMPILER,
                  "-DCMAKE_PREFIX_PATH=" + (tree_ / "installed").string()});
     expect_done({BIOTOMY_CMAKE, "--build", tree_ / "build"});
   }

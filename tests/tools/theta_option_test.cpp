@@ -85,20 +85,21 @@ TEST_F(ThetaOption, RefusesAnotherWordAndAnEdgeThatIsNotThere) {
 }
 
 TEST_F(ThetaOption, AppliesToEachFrameOfASeries) {
-  const std::string frames = (folder_.path() / "frames").string();
+  const std::filesystem::path frames = folder_.path() / "frames";
+  const std::filesystem::path none = folder_.path() / "none";
   run({"series", sample_, "rotate", "--axis", "x", "--to", "90", "--step", "45", "--theta",
        "custom:0,0,0,400,100,0", "--pixel", "2", "-o", frames});
   EXPECT_EQ(reconstruct::names_in(frames).size(), 3U);
   // 400 um at 2 um a pixel, and one more since films want even sizes.
   for (const std::string& name : reconstruct::names_in(frames)) {
-    EXPECT_EQ(cv::imread(frames + "/" + name).cols, 202) << name;
+    EXPECT_EQ(cv::imread(frames / name).cols, 202) << name;
   }
   EXPECT_THAT(message_of<InvalidRequest>([&] {
                 run({"series", sample_, "rotate", "--axis", "x", "--step", "45", "--theta",
-                     "edge:9", "-o", frames + "-none"});
+                     "edge:9", "-o", none});
               }),
               HasSubstr("no edge 9"));
-  EXPECT_FALSE(std::filesystem::exists(frames + "-none"));
+  EXPECT_FALSE(std::filesystem::exists(none));
 }
 
 }  // namespace

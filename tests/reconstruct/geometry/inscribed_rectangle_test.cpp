@@ -98,12 +98,12 @@ double greatest(double low, double high, int steps, const std::function<double(d
 // By the left and the right end of the rectangle: the area's logarithm is concave in them.
 double brute_force_area(const Points& points) {
   constexpr int kSteps = 60;
-  const auto [first, last] =
+  const auto ends =
       std::minmax_element(points.begin(), points.end(),
                           [](const PlanarPoint& a, const PlanarPoint& b) { return a.x < b.x; });
-  return greatest(first->x, last->x, kSteps, [&](double left) {
+  return greatest(ends.first->x, ends.second->x, kSteps, [&](double left) {
     const Chord at_left = chord_at(points, left);
-    return greatest(left, last->x, kSteps, [&](double right) {
+    return greatest(left, ends.second->x, kSteps, [&](double right) {
       const Chord at_right = chord_at(points, right);
       // Below 0 it still falls away from the peak.
       return (right - left) *
@@ -115,8 +115,8 @@ double brute_force_area(const Points& points) {
 // Of all angles, by the function that is tested for each: the best of many, and what lies about it.
 double brute_force_area_at_any_angle(const PlanarPolygon& polygon) {
   const auto area_at = [&](double angle) { return area(largest_rectangle(polygon, angle)); };
-  constexpr double kStep = 0.25 * kDegree;
-  constexpr int kFirst = -182;  // half a degree more than is needed
+  constexpr double kStep = 0.5 * kDegree;
+  constexpr int kFirst = -91;  // half a degree more than is needed
   std::vector<double> areas;
   for (int i = kFirst; i <= -kFirst; ++i) {
     areas.push_back(area_at(i * kStep));
@@ -376,6 +376,18 @@ TEST(LargestRectangle, OfALineIsRefused) {
       EXPECT_THAT(error.what(), testing::HasSubstr("too thin to hold a rectangle"));
     }
   }
+}
+
+// The side across from edge 1 is as good as parallel to it; the rounding error of the height, times
+// the inverse of their slope, is longer than the edge.
+TEST(LargestRectangleOnEdge, StaysInsideAPolygonThatIsAMillionTimesLongerThanTheEdge) {
+  const PlanarPolygon polygon(Points{{0, 0},
+                                     {8493403392.2610321, 0},
+                                     {8493403392.2611275, 3461.8324250600454},
+                                     {0.0001151175398422382, 4202.1076907882234}});
+  const PlanarRectangle rectangle = largest_rectangle_on_edge(polygon, 1);
+  EXPECT_NEAR(rectangle.height, 3461.8324250600454, 1e-3);
+  expect_inside(rectangle, polygon);
 }
 
 TEST(LargestRectangle, TakesVerticesThatAreRoundingErrorsForNone) {

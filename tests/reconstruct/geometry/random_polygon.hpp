@@ -66,6 +66,7 @@ inline std::vector<reconstruct::PlanarPoint> random_section(std::mt19937& random
       reconstruct::section_basis(reconstruct::BasisKind::layer, plane);
   const auto polygon = reconstruct::section_polygon(plane, cuboid);
   std::vector<reconstruct::PlanarPoint> points;
+  points.reserve(polygon.size());
   for (const reconstruct::Vector3& vertex : polygon) {
     points.push_back({reconstruct::dot(vertex - polygon[0], basis.p),
                       reconstruct::dot(vertex - polygon[0], basis.q)});

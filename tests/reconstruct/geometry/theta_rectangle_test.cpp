@@ -1,6 +1,7 @@
 #include "reconstruct/geometry/theta_rectangle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -196,6 +197,57 @@ TEST(ThetaRectangle, RefusesACustomOneThatIsNoRectangle) {
         theta::Custom{{0, infinity, 0}, 1.0, 1.0, 0.0}}) {
     EXPECT_THAT(refusal(custom, plane), testing::HasSubstr("custom rectangle"));
   }
+}
+
+// Spacings from 10⁻³ to 10⁶ µm that differ up to ten-thousandfold, planes that are nearly along a
+// face or nearly through a corner: the pictures of them all are without background.
+TEST(ThetaRectangle, InscribedStaysInTheCuboidToAMillionthOfAVoxelWhateverTheCuboidAndThePlane) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  std::normal_distribution<double> direction;
+  int sections = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double scale = std::pow(10.0, -3.0 + 5.0 * part(random));
+    const auto size = [&] {
+      return static_cast<std::int64_t>(2.0 * std::pow(10'000.0, part(random)));
+    };
+    const auto spacing = [&] { return scale * std::pow(10'000.0, part(random)); };
+    const Cuboid cuboid{{size(), size(), size()}, {spacing(), spacing(), spacing()}};
+    const Vector3 far = cuboid.extent();
+    const auto tilt = [&] { return std::pow(10.0, -12.0 * part(random)) * direction(random); };
+    const auto place = [&] {
+      const double little = std::pow(10.0, -16.0 * part(random));
+      return std::array<double, 3>{little, 1.0 - little, part(random)}[random() % 3];
+    };
+    const Plane plane =
+        Plane::from_normal({tilt() / far.x, tilt() / far.y, direction(random) / far.z},
+                           {place() * far.x, place() * far.y, place() * far.z});
+    const auto polygon = contact(plane, cuboid).vertices;
+    if (polygon.size() < 3) {
+      continue;
+    }
+    const SectionBasis basis = section_basis(i % 2 == 0 ? BasisKind::layer : BasisKind::xz, plane);
+    for (const ThetaChoice& choice :
+         {ThetaChoice(theta::Inscribed{}), ThetaChoice(theta::InscribedAny{}),
+          ThetaChoice(theta::InscribedAtEdge{i % 3})}) {
+      const ThetaRectangle rectangle = theta_rectangle(choice, polygon, basis);
+      EXPECT_GT(rectangle.width, 0.0);
+      EXPECT_GT(rectangle.height, 0.0);
+      for (const double x : {0.0, rectangle.width}) {
+        for (const double y : {0.0, rectangle.height}) {
+          const Vector3 corner = rectangle.origin + x * rectangle.axes.p + y * rectangle.axes.q;
+          ASSERT_GE(corner.x, -1e-6 * cuboid.spacing.x) << i;
+          ASSERT_GE(corner.y, -1e-6 * cuboid.spacing.y) << i;
+          ASSERT_GE(corner.z, -1e-6 * cuboid.spacing.z) << i;
+          ASSERT_LE(corner.x - far.x, 1e-6 * cuboid.spacing.x) << i;
+          ASSERT_LE(corner.y - far.y, 1e-6 * cuboid.spacing.y) << i;
+          ASSERT_LE(corner.z - far.z, 1e-6 * cuboid.spacing.z) << i;
+        }
+      }
+    }
+    ++sections;
+  }
+  EXPECT_GT(sections, 15000);
 }
 
 // A corner of the block is cut off, from all of it down to rounding errors: there is a rectangle,
