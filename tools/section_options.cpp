@@ -27,7 +27,10 @@ void add_section_options(CLI::App& command, SectionOptions& options) {
       ->capture_default_str();
   command.add_option("--basis", options.basis, "How the picture lies in the plane: layer or xz")
       ->capture_default_str();
-  command.add_option("--theta", options.theta, "The rectangle of the picture: bounding")
+  command
+      .add_option("--theta", options.theta,
+                  "The rectangle of the picture: bounding, inscribed, inscribed-any, edge:I or "
+                  "custom:X,Y,Z,W,H,ANGLE")
       ->capture_default_str();
   command.add_option("--interpolation", options.interpolation, "nearest or linear")
       ->capture_default_str();
@@ -43,7 +46,6 @@ SectionChoices choices(const SectionOptions& options) {
                         reconstruct::basis_kind(options.basis),
                         {},
                         cache_bytes(options.cache_mb)};
-  chosen.style.theta = reconstruct::theta_kind(options.theta);
   chosen.style.interpolation = reconstruct::interpolation(options.interpolation);
   chosen.style.background = reconstruct::parse_colour("--background", options.background);
   return chosen;
@@ -52,6 +54,7 @@ SectionChoices choices(const SectionOptions& options) {
 reconstruct::SectionStyle style_for(const SectionChoices& choices, const SectionOptions& options,
                                     const reconstruct::Vector3& spacing) {
   reconstruct::SectionStyle style = choices.style;
+  style.theta = reconstruct::parse_theta("--theta", options.theta, choices.unit, spacing);
   if (!options.pixel.empty()) {
     const double length = reconstruct::parse_number("--pixel", options.pixel);
     if (length <= 0.0) {

@@ -36,10 +36,11 @@ struct SectionChoices {
 /// `options.background` is the default that help shows.
 void add_section_options(CLI::App& command, SectionOptions& options);
 
-/// Throws InvalidRequest that names the option. The pixel size needs `style_for`.
+/// Throws InvalidRequest that names the option. The rectangle and the pixel size need
+/// `style_for`.
 SectionChoices choices(const SectionOptions& options);
 
-/// The style with the pixel size in a sample of this spacing.
+/// The style with the rectangle and the pixel size in a sample of this spacing.
 reconstruct::SectionStyle style_for(const SectionChoices& choices, const SectionOptions& options,
                                     const reconstruct::Vector3& spacing);
 

@@ -15,7 +15,10 @@
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr double kSamePoint = 1e-11;  // of the box's diagonal
+// Of the box's diagonal. What is taken for on the plane is put into the picture as it is, so that
+// the first may be no more than rounding; the second only spares vertices.
+constexpr double kOnPlane = 1e-13;
+constexpr double kSamePoint = 1e-11;
 
 // Corner number: bit 0 is set at the far end along x, bit 1 along y, bit 2 along z.
 constexpr std::size_t kCorners = 8;
@@ -81,6 +84,7 @@ std::string describe(const Vector3& point) {
 
 PlaneContact contact(const Plane& plane, const Cuboid& cuboid) {
   const std::array<Vector3, kCorners> corners = corners_of(cuboid);
+  const double on_plane = kOnPlane * norm(cuboid.extent());
   const double tolerance = kSamePoint * norm(cuboid.extent());
 
   std::array<double, kCorners> distances{};
@@ -89,7 +93,7 @@ PlaneContact contact(const Plane& plane, const Cuboid& cuboid) {
   for (std::size_t i = 0; i < kCorners; ++i) {
     distances[i] = plane.signed_distance(corners[i]);
     nearest = std::min(nearest, std::abs(distances[i]));
-    if (std::abs(distances[i]) <= tolerance) {
+    if (std::abs(distances[i]) <= on_plane) {
       distances[i] = 0.0;
       add_unless_there(result.vertices, corners[i], tolerance);
     }

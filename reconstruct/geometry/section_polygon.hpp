@@ -8,7 +8,8 @@
 namespace biotomy::reconstruct {
 
 /// What a plane and the closed box of a sample have in common.
-/// Points nearer to each other than 10⁻¹¹ of the box's diagonal are one point.
+/// A corner nearer to the plane than 10⁻¹³ of the box's diagonal is on it; points nearer to each
+/// other than 10⁻¹¹ of it are one point.
 struct PlaneContact {
   /// None when the plane misses the box, one or two when it only touches a vertex or an edge, three
   /// to six when it cuts the box: a convex polygon. In micrometres. The polygon starts at the

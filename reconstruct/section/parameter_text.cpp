@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/section/nearest_word.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -44,11 +45,12 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
-  std::array<double, 3> values{};
-  for (std::size_t i = 0; i < 3; ++i) {
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers(std::string_view text) {
+  std::array<double, N> values{};
+  for (std::size_t i = 0; i < N; ++i) {
     const auto comma = text.find(',');
-    if ((comma == std::string_view::npos) != (i == 2)) {
+    if ((comma == std::string_view::npos) != (i == N - 1)) {
       return std::nullopt;
     }
     const std::optional<double> value = number(text.substr(0, comma));
@@ -56,7 +58,7 @@ std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
       return std::nullopt;
     }
     values[i] = *value;
-    text.remove_prefix(i == 2 ? text.size() : comma + 1);
+    text.remove_prefix(i == N - 1 ? text.size() : comma + 1);
   }
   return values;
 }
@@ -66,7 +68,7 @@ std::array<Vector3, 3> parse_points(const std::string& name, const std::string& 
   std::istringstream words(text);
   std::vector<Vector3> points;
   for (std::string word; words >> word;) {
-    const auto values = three_numbers(word);
+    const auto values = numbers<3>(word);
     if (!values || points.size() == 3) {
       refuse(name, text, wanted);
     }
@@ -76,6 +78,43 @@ std::array<Vector3, 3> parse_points(const std::string& name, const std::string& 
     refuse(name, text, wanted);
   }
   return {points[0], points[1], points[2]};
+}
+
+ThetaChoice parse_edge(const std::string& name, const std::string& text,
+                       std::string_view edge_text) {
+  int edge = -1;
+  const char* const end = edge_text.data() + edge_text.size();
+  const auto [stopped, error] = std::from_chars(edge_text.data(), end, edge);
+  if (error != std::errc{} || stopped != end || edge < 0) {
+    refuse(name, text, "edge:I with the whole number I of an edge of the section, from 0");
+  }
+  return theta::InscribedAtEdge{edge};
+}
+
+ThetaChoice parse_custom(const std::string& name, const std::string& text,
+                         std::string_view custom_text, LengthUnit unit, const Vector3& spacing) {
+  const auto values = numbers<6>(custom_text);
+  if (!values) {
+    refuse(name, text, "custom:X,Y,Z,W,H,ANGLE, six numbers");
+  }
+  const auto& [x, y, z, width, height, angle] = *values;
+  if (width <= 0.0 || height <= 0.0) {
+    refuse(name, text, "a width and a height above 0");
+  }
+  return theta::Custom{position_in_micrometres({x, y, z}, unit, spacing),
+                       length_in_micrometres(width, unit, spacing),
+                       length_in_micrometres(height, unit, spacing), angle};
+}
+
+[[noreturn]] void refuse_theta(const std::string& name, const std::string& text,
+                               std::string_view word) {
+  constexpr std::array<std::string_view, 5> kWords{"bounding", "inscribed", "inscribed-any", "edge",
+                                                   "custom"};
+  const std::string_view nearest = nearest_word(word, kWords);
+  const std::string question = nearest.empty() ? "" : "did you mean " + std::string(nearest) + "? ";
+  throw InvalidRequest(name + " '" + text + "': " + question +
+                       "give bounding, inscribed, inscribed-any, edge:I or "
+                       "custom:X,Y,Z,W,H,ANGLE");
 }
 
 }  // namespace
@@ -89,7 +128,7 @@ double parse_number(const std::string& name, const std::string& text) {
 }
 
 Vector3 parse_vector(const std::string& name, const std::string& text) {
-  const auto values = three_numbers(text);
+  const auto values = numbers<3>(text);
   if (!values) {
     refuse(name, text, "three numbers, x,y,z");
   }
@@ -97,7 +136,7 @@ Vector3 parse_vector(const std::string& name, const std::string& text) {
 }
 
 Colour parse_colour(const std::string& name, const std::string& text) {
-  const auto values = three_numbers(text);
+  const auto values = numbers<3>(text);
   Colour colour{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = values ? (*values)[i] : -1.0;
@@ -144,6 +183,32 @@ double length_in_micrometres(double length, LengthUnit unit, const Vector3& spac
       break;
   }
   return length * std::min({spacing.x, spacing.y, spacing.z});
+}
+
+ThetaChoice parse_theta(const std::string& name, const std::string& text, LengthUnit unit,
+                        const Vector3& spacing) {
+  const std::string_view whole = without_blanks(text);
+  const auto colon = whole.find(':');
+  const std::string_view word = whole.substr(0, colon);
+  if (colon != std::string_view::npos) {
+    if (word == "edge") {
+      return parse_edge(name, text, whole.substr(colon + 1));
+    }
+    if (word == "custom") {
+      return parse_custom(name, text, whole.substr(colon + 1), unit, spacing);
+    }
+  } else {
+    if (word == "bounding") {
+      return theta::Bounding{};
+    }
+    if (word == "inscribed") {
+      return theta::Inscribed{};
+    }
+    if (word == "inscribed-any") {
+      return theta::InscribedAny{};
+    }
+  }
+  refuse_theta(name, text, word);
 }
 
 Plane parse_plane(const std::string& prefix, const PlaneText& text, LengthUnit unit,

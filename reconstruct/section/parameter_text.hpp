@@ -5,6 +5,7 @@
 
 #include "reconstruct/geometry/cuboid.hpp"
 #include "reconstruct/geometry/plane.hpp"
+#include "reconstruct/geometry/theta_rectangle.hpp"
 #include "reconstruct/section/sampler.hpp"
 
 namespace biotomy::reconstruct {
@@ -30,6 +31,13 @@ LengthUnit parse_unit(const std::string& name, const std::string& text);
 
 Vector3 position_in_micrometres(const Vector3& position, LengthUnit unit, const Vector3& spacing);
 double length_in_micrometres(double length, LengthUnit unit, const Vector3& spacing);
+
+/// "bounding", "inscribed", "inscribed-any", "edge:I" with a whole number I from 0, or
+/// "custom:X,Y,Z,W,H,ANGLE": a position and two lengths in the unit, both above 0, and degrees. A
+/// refusal of another word names the one it was probably meant to be. Whether the section has an
+/// edge I is only known when it is cut.
+ThetaChoice parse_theta(const std::string& name, const std::string& text, LengthUnit unit,
+                        const Vector3& spacing);
 
 /// How a plane is asked for: by three points "x,y,z x,y,z x,y,z", or by a normal and a point, both
 /// "x,y,z". Points are in the unit; the normal is a direction in space and has none.

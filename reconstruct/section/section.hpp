@@ -18,7 +18,7 @@ namespace biotomy::reconstruct {
 
 /// How sections are drawn, whatever the plane.
 struct SectionStyle {
-  ThetaKind theta = ThetaKind::bounding;
+  ThetaChoice theta = theta::Bounding{};
   Interpolation interpolation = Interpolation::linear;
   std::optional<double> pixel;  ///< micrometres; the least spacing if none
   Colour background{0, 0, 0};
@@ -44,7 +44,8 @@ struct Section {
   SampleStatistics statistics;
 };
 
-/// Throws SampleError where the plane does not cut the cuboid, or the picture would be too large.
+/// Throws SampleError where the plane does not cut the cuboid, or the picture would be too large,
+/// and what theta_rectangle throws.
 SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request);
 
 /// Throws what outline_section and the source throw.

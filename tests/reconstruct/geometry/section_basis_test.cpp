@@ -1,5 +1,7 @@
 #include "reconstruct/geometry/section_basis.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -89,6 +91,72 @@ TEST(SectionBasis, FollowsTheRuleOfSignsWhateverTheSignOfTheNormal) {
           EXPECT_EQ(one.q, other.q);
         }
       }
+    }
+  }
+}
+
+void expect_signs_of_the_rule(const Plane& plane) {
+  const SectionBasis layer = section_basis(BasisKind::layer, plane);
+  EXPECT_GE(layer.q.z, 0.0);
+  EXPECT_TRUE(layer.p.x > 0.0 || (layer.p.x == 0.0 && layer.p.y > 0.0));
+  const SectionBasis xz = section_basis(BasisKind::xz, plane);
+  EXPECT_GE(xz.q.y, 0.0);
+  EXPECT_TRUE(xz.p.x > 0.0 || (xz.p.x == 0.0 && xz.p.z > 0.0));
+}
+
+void expect_one_basis(const Plane& one, const Plane& other) {
+  for (const BasisKind kind : {BasisKind::layer, BasisKind::xz}) {
+    EXPECT_EQ(section_basis(kind, one).p, section_basis(kind, other).p);
+    EXPECT_EQ(section_basis(kind, one).q, section_basis(kind, other).q);
+  }
+}
+
+// Points on a small lattice, so that planes along axes, faces and diagonals are among them, and
+// points anywhere.
+TEST(SectionBasis, IsTheSameToTheLastBitForAllOrdersOfThePointsAndBothSignsOfTheNormal) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> anywhere(-1e5, 1e5);
+  int planes = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto coordinate = [&] {
+      return i % 2 == 0 ? 10.0 * static_cast<double>(random() % 3) : anywhere(random);
+    };
+    std::array<Vector3, 3> points;
+    for (Vector3& point : points) {
+      point = {coordinate(), coordinate(), coordinate()};
+    }
+    if (norm(cross(points[1] - points[0], points[2] - points[0])) == 0.0) {
+      continue;
+    }
+    const Plane first = Plane::through_points(points[0], points[1], points[2]);
+    expect_signs_of_the_rule(first);
+    std::array<int, 3> order{0, 1, 2};
+    do {
+      const Plane plane =
+          Plane::through_points(points[order[0]], points[order[1]], points[order[2]]);
+      expect_one_basis(first, plane);
+      expect_one_basis(Plane::from_normal(plane.normal(), points[0]),
+                       Plane::from_normal(-1.0 * plane.normal(), points[0]));
+    } while (std::next_permutation(order.begin(), order.end()));
+    ++planes;
+  }
+  EXPECT_GT(planes, 2000);
+}
+
+// Three other points of the same plane give its picture the same way up.
+TEST(SectionBasis, DoesNotDependOnWhichPointsOfThePlaneAreGiven) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> direction;
+  std::uniform_real_distribution<double> place(-1e4, 1e4);
+  for (int i = 0; i < 1000; ++i) {
+    const Plane plane = plane_of({direction(random), direction(random), direction(random)});
+    const SectionBasis basis = section_basis(BasisKind::layer, plane);
+    const auto point = [&] { return place(random) * basis.p + place(random) * basis.q; };
+    const Vector3 a = point();
+    const Plane other = Plane::through_points(a, a + 5e3 * basis.p, a + 3e3 * basis.q);
+    for (const BasisKind kind : {BasisKind::layer, BasisKind::xz}) {
+      EXPECT_NEAR(norm(section_basis(kind, other).p - section_basis(kind, plane).p), 0.0, 1e-9);
+      EXPECT_NEAR(norm(section_basis(kind, other).q - section_basis(kind, plane).q), 0.0, 1e-9);
     }
   }
 }

@@ -1,6 +1,8 @@
 #include "reconstruct/geometry/section_polygon.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -112,6 +114,115 @@ TEST(SectionPolygon, IsConvexAndLiesOnThePlaneAndInTheCuboidForRandomPlanes) {
   }
   for (std::size_t vertices = 3; vertices <= 6; ++vertices) {
     EXPECT_GT(seen[vertices], 0) << vertices;
+  }
+}
+
+/// A point of the lattice 0, 1, 2 along each axis: a corner, the middle of an edge or of a face, or
+/// the centre of the box.
+struct LatticePoint {
+  int x = 0;
+  int y = 0;
+  int z = 0;
+
+  LatticePoint operator-(const LatticePoint& other) const {
+    return {x - other.x, y - other.y, z - other.z};
+  }
+};
+
+int product(const LatticePoint& a, const LatticePoint& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+LatticePoint across(const LatticePoint& a, const LatticePoint& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+LatticePoint lattice_point(int number) {
+  return {number % 3, number / 3 % 3, number / 9};
+}
+
+// In whole numbers, thus exact: corners on the plane, and edges whose ends lie on both sides of it.
+int exact_count_of_vertices(const LatticePoint& normal, const LatticePoint& through) {
+  std::array<int, 8> sides{};
+  int vertices = 0;
+  for (unsigned i = 0; i < 8; ++i) {
+    const LatticePoint corner{(i & 1U) != 0 ? 2 : 0, (i & 2U) != 0 ? 2 : 0, (i & 4U) != 0 ? 2 : 0};
+    sides[i] = product(normal, corner - through);
+    vertices += sides[i] == 0 ? 1 : 0;
+  }
+  for (unsigned i = 0; i < 8; ++i) {
+    for (const unsigned axis : {1U, 2U, 4U}) {
+      vertices += (i & axis) == 0 && sides[i] * sides[i | axis] < 0 ? 1 : 0;
+    }
+  }
+  return vertices;
+}
+
+/// 3 × 3 × 3 voxels, the lattice being their centres.
+class SectionPolygonOfLatticePlanes : public testing::TestWithParam<Vector3> {};
+
+// All planes through three lattice points: through corners, edges, faces and diagonals, and between
+// them. Rounding must neither double a vertex nor lose one, whatever the spacing.
+TEST_P(SectionPolygonOfLatticePlanes, HasExactlyTheVerticesOfWholeNumbers) {
+  const Cuboid cuboid{{3, 3, 3}, GetParam()};
+  const auto place = [&](const LatticePoint& p) {
+    return Vector3{p.x * cuboid.spacing.x, p.y * cuboid.spacing.y, p.z * cuboid.spacing.z};
+  };
+  std::array<int, 7> seen{};
+  for (int i = 0; i < 27; ++i) {
+    for (int k = i + 1; k < 27; ++k) {
+      for (int l = k + 1; l < 27; ++l) {
+        const LatticePoint a = lattice_point(i);
+        const LatticePoint b = lattice_point(k);
+        const LatticePoint c = lattice_point(l);
+        const LatticePoint normal = across(b - a, c - a);
+        if (product(normal, normal) == 0) {
+          continue;  // on one line
+        }
+        const int expected = exact_count_of_vertices(normal, a);
+        const Plane plane = Plane::through_points(place(a), place(b), place(c));
+        ASSERT_EQ(contact(plane, cuboid).vertices.size(), static_cast<std::size_t>(expected))
+            << i << ' ' << k << ' ' << l;
+        ++seen[static_cast<std::size_t>(expected)];
+        if (expected >= 3) {
+          expect_convex_polygon(section_polygon(plane, cuboid), plane, cuboid);
+        } else {
+          EXPECT_THROW(section_polygon(plane, cuboid), SampleError);
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen[3], 0);
+  EXPECT_GT(seen[4], 0);
+  EXPECT_GT(seen[5], 0);
+  EXPECT_GT(seen[6], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, SectionPolygonOfLatticePlanes,
+                         testing::Values(Vector3{1e-3, 1e-3, 1e-3}, Vector3{0.1, 0.3, 0.7},
+                                         Vector3{10, 10, 20}, Vector3{3.3, 3.4, 40},
+                                         Vector3{1e6, 1e6, 1e6}, Vector3{1.0, 1e3, 1e4},
+                                         Vector3{1e4, 7.7, 0.3}, Vector3{1e-3, 1.0, 1e2}));
+
+TEST(SectionPolygon, IsTheSameAtEveryScale) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> direction;
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3 normal{direction(random), direction(random), direction(random)};
+    const Vector3 place{part(random), part(random), part(random)};
+    std::vector<Vector3> at_one;
+    for (const double scale : {1.0, 1e-3, 1e3, 1e6}) {
+      const Cuboid cuboid{{200, 100, 30}, {3.3 * scale, 3.4 * scale, 40.0 * scale}};
+      const Vector3 far = cuboid.extent();
+      const auto polygon = section_polygon(
+          Plane::from_normal(normal, {place.x * far.x, place.y * far.y, place.z * far.z}), cuboid);
+      at_one = at_one.empty() ? polygon : at_one;
+      ASSERT_EQ(polygon.size(), at_one.size());
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        EXPECT_NEAR(norm(polygon[k] - scale * at_one[k]), 0.0, 1e-9 * norm(far));
+      }
+    }
   }
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const Vector3 kSpacing{3.0, 4.0, 20.0};
 
@@ -85,6 +86,48 @@ TEST(ParameterText, MakesAPlaneOfANormalAndAPoint) {
   text.through = "0,0,2";
   const Plane plane = parse_plane("--", text, LengthUnit::voxels, kSpacing);
   EXPECT_EQ(plane.offset(), -40.0);
+}
+
+TEST(ParameterText, MakesTheChoiceOfARectangle) {
+  const auto chosen = [](const char* text, LengthUnit unit = LengthUnit::micrometres) {
+    return parse_theta("--theta", text, unit, kSpacing);
+  };
+  EXPECT_EQ(chosen("bounding"), ThetaChoice(theta::Bounding{}));
+  EXPECT_EQ(chosen(" inscribed "), ThetaChoice(theta::Inscribed{}));
+  EXPECT_EQ(chosen("inscribed-any"), ThetaChoice(theta::InscribedAny{}));
+  EXPECT_EQ(chosen("edge:5"), ThetaChoice(theta::InscribedAtEdge{5}));
+  EXPECT_EQ(chosen("custom:1,2,3,40,50,-30"),
+            ThetaChoice(theta::Custom{{1, 2, 3}, 40.0, 50.0, -30.0}));
+}
+
+TEST(ParameterText, MakesACustomRectangleInTheUnit) {
+  EXPECT_EQ(parse_theta("theta", "custom:1,2,3,4,5,6", LengthUnit::voxels, kSpacing),
+            ThetaChoice(theta::Custom{{3, 8, 60}, 12.0, 15.0, 6.0}));
+  EXPECT_EQ(parse_theta("theta", "custom:1,2,3,4,5,6", LengthUnit::millimetres, kSpacing),
+            ThetaChoice(theta::Custom{{1000, 2000, 3000}, 4000.0, 5000.0, 6.0}));
+}
+
+TEST(ParameterText, RefusesWhatIsNoRectangleAndNamesTheNearestWord) {
+  const auto message = [](const std::string& text) {
+    return refusal([&] { parse_theta("--theta", text, LengthUnit::micrometres, kSpacing); });
+  };
+  EXPECT_THAT(message("inscribd"), AllOf(HasSubstr("--theta 'inscribd'"),
+                                         HasSubstr("did you mean inscribed? give bounding")));
+  EXPECT_THAT(message("costum:1,2,3,4,5,6"), HasSubstr("did you mean custom?"));
+  EXPECT_THAT(message("largest"), AllOf(HasSubstr("give bounding"), Not(HasSubstr("did you"))));
+  for (const char* text : {"edge", "edge:", "edge:-1", "edge:1.5", "edge:x", "edge:99999999999"}) {
+    EXPECT_THAT(message(text), AllOf(HasSubstr(text), HasSubstr("edge:I"))) << text;
+  }
+  for (const char* text :
+       {"custom", "custom:", "custom:1,2,3,4,5", "custom:1,2,3,4,5,6,7", "custom:1,2,3,4,5,nan"}) {
+    EXPECT_THAT(message(text), HasSubstr("custom:X,Y,Z,W,H,ANGLE")) << text;
+  }
+  for (const char* text : {"custom:1,2,3,0,5,6", "custom:1,2,3,4,-5,6"}) {
+    EXPECT_THAT(message(text), HasSubstr("above 0")) << text;
+  }
+  for (const char* text : {"", "bounding:1", "inscribed:", ":3"}) {
+    EXPECT_THAT(message(text), HasSubstr("give bounding")) << text;
+  }
 }
 
 TEST(ParameterText, RefusesPointsThatAreNotThree) {

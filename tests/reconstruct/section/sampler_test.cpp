@@ -23,7 +23,7 @@ constexpr Colour kBackground{11, 22, 33};
 
 PixelGrid grid_for(const Plane& plane, const Cuboid& cuboid, double pixel,
                    BasisKind kind = BasisKind::layer) {
-  const auto rectangle = theta_rectangle(ThetaKind::bounding, section_polygon(plane, cuboid),
+  const auto rectangle = theta_rectangle(theta::Bounding{}, section_polygon(plane, cuboid),
                                          section_basis(kind, plane));
   return pixel_grid(rectangle, pixel, 3, 1'000'000'000);
 }

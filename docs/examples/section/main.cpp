@@ -1,0 +1,68 @@
+// Cuts a sample along the plane through three points, in micrometres, into a PNG:
+//
+//   section knee "4995,0,1580 0,4995,1580 9990,0,790" section.png
+//
+// What is wrong is told by exceptions: InvalidRequest for what can never work (three points on a
+// line), SampleError for what does not fit this sample (a plane that misses it).
+
+#include <exception>
+#include <iostream>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/geometry/plane.hpp"
+#include "reconstruct/geometry/section_basis.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/section/cached_volume.hpp"
+#include "reconstruct/section/parameter_text.hpp"
+#include "reconstruct/section/section.hpp"
+#include "reconstruct/section/section_image.hpp"
+#include "reconstruct/store/volume.hpp"
+
+namespace rc = biotomy::reconstruct;
+
+namespace {
+
+void cut(const char* sample, const char* points, const char* picture) {
+  const rc::Volume volume = rc::Volume::open(rc::SampleFolder::open(sample).volume_path());
+
+  // Plane::through_points takes the points as numbers; here they come as text.
+  rc::PlaneText text;
+  text.points = points;
+  const rc::Plane plane =
+      rc::parse_plane("", text, rc::LengthUnit::micrometres, volume.cuboid().spacing);
+
+  rc::SectionStyle style;
+  style.theta = rc::theta::Inscribed{};  // no background in the picture
+  const rc::SectionBasis basis = rc::section_basis(rc::BasisKind::layer, plane);
+
+  // Decoded chunks are kept for the next section; 256 MB of them here.
+  rc::CachedVolume source(volume, 256'000'000);
+  const rc::Section section = rc::cut_section(source, {plane, basis, style});
+
+  const rc::PixelGrid& grid = section.outline.grid;
+  rc::write_section_image(picture, section.image, grid.pixel);
+
+  // Where the picture is: pixel (u, v) lies at origin + u·pixel·p + v·pixel·q.
+  const rc::Vector3& origin = grid.rectangle.origin;
+  std::cout << grid.columns << " x " << grid.rows << " pixels of " << grid.pixel
+            << " um, the first at " << origin.x << ',' << origin.y << ',' << origin.z << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::cerr << "usage: section SAMPLE \"x,y,z x,y,z x,y,z\" PICTURE\n";
+    return 2;
+  }
+  try {
+    cut(argv[1], argv[2], argv[3]);
+  } catch (const rc::InvalidRequest& error) {
+    std::cerr << "section: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "section: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
