@@ -87,16 +87,18 @@ bool reaches_the_disk(const std::filesystem::path& path) {
 }
 
 /// Makes the file and keeps others from writing the same film. The kernel takes the lock back when
-/// we die.
+/// we die; an encoder that outlives us for a moment goes on with a file that has lost its name.
 FileDescriptor locked_file(const std::filesystem::path& partial,
                            const std::filesystem::path& film) {
-  FileDescriptor file(::open(partial.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644));
-  if (!file.is_open()) {
+  const FileDescriptor leftover(::open(partial.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+  if (leftover.is_open() && ::flock(leftover.get(), LOCK_EX | LOCK_NB) != 0) {
+    throw SampleError(film.string() + ": another process is writing this film: wait for its end");
+  }
+  ::unlink(partial.c_str());
+  FileDescriptor file(::open(partial.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  if (!file.is_open() || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     throw SampleError(film.string() +
                       ": the film can't be begun: " + std::generic_category().message(errno));
-  }
-  if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
-    throw SampleError(film.string() + ": another process is writing this film: wait for its end");
   }
   return file;
 }

@@ -23,7 +23,7 @@ cv::Size film_size(cv::Size frame_size);
 /// A film being written by the program ffmpeg: H.264 in MP4, 4:2:0, BT.709, the index in front, so
 /// that browsers play it while it loads. It appears under its name when it is finished, whole; a
 /// film that isn't finished leaves nothing. Only after a kill of our own process a hidden file
-/// stays beside it, which the next film of that name overwrites.
+/// stays beside it, which the next film of that name replaces.
 class Film {
  public:
   /// Throws InvalidRequest for another extension, an odd or empty frame size or a rate that is not

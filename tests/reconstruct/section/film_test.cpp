@@ -159,13 +159,17 @@ TEST(Film, IsNotThereUntilItIsFinished) {
   EXPECT_FALSE(has_children());
 }
 
-TEST(Film, OverwritesWhatAKilledProcessLeft) {
+// The encoder of a killed process may live for a moment longer and write on.
+TEST(Film, ReplacesWhatAKilledProcessLeftAndDoesNotWriteIntoIt) {
   const TemporaryFolder folder;
+  const TemporaryFolder other;
   write_text(folder.path() / ".a.mp4.partial", "half a film");
+  std::filesystem::create_hard_link(folder.path() / ".a.mp4.partial", other.path() / "kept");
   Film film(folder.path() / "a.mp4", 25.0, kSize);
   film.add(frame_of(1, 2, 3));
   film.finish();
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a.mp4"});
+  EXPECT_EQ(read_file(other.path() / "kept").size(), std::string("half a film").size());
 }
 
 TEST(Film, IsWrittenByOneAtATime) {
