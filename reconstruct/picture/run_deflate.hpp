@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,6 @@ void deflate_runs(std::span<const std::uint8_t> plain, bool last, std::vector<st
 std::vector<std::byte> zlib_stream_of_runs(std::span<const std::uint8_t> plain);
 
 /// The two bytes that such a stream begins with.
-inline constexpr std::uint8_t kZlibHeader[2] = {0x78, 0x01};
+inline constexpr std::array<std::uint8_t, 2> kZlibHeader{0x78, 0x01};
 
 }  // namespace biotomy::reconstruct

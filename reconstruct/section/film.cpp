@@ -56,19 +56,20 @@ std::string rate_argument(double rate) {
 
 std::vector<std::string> encoder_command(const std::filesystem::path& path, double rate,
                                          cv::Size frame_size) {
-  // The colours are converted by the matrix that players assume, and the file says so.
+  // The colours are converted by the matrix that players assume, and the frames say so, so that
+  // the encoder and the file do.
   const std::string picture =
       "scale=" + size_argument(film_size(frame_size), ':') +
       ":flags=area+accurate_rnd+full_chroma_int:out_color_matrix=bt709:out_range=tv,"
-      "format=yuv420p";
+      "format=yuv420p,setparams=range=tv:colorspace=bt709:color_primaries=bt709:"
+      "color_trc=iec61966-2-1";
   return {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error",
           // What comes in.
           "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size_argument(frame_size, 'x'),
           "-framerate", rate_argument(rate), "-i", "pipe:0",
           // What is made of it.
           "-vf", picture, "-fps_mode", "passthrough", "-c:v", "libx264", "-preset", "medium",
-          "-crf", kRateFactor, "-g", kFramesBetweenKeyFrames, "-color_range", "tv", "-colorspace",
-          "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
+          "-crf", kRateFactor, "-g", kFramesBetweenKeyFrames,
           // Where it goes.
           "-movflags", "+faststart", "-f", "mp4", "-y", file_argument(path)};
 }
