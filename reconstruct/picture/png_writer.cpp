@@ -150,6 +150,7 @@ Strip encode_strip(const cv::Mat& rgb, int first, int end) {
   }
   deflate_runs(filtered, end == rgb.rows, strip.chunk);
   end_chunk(strip.chunk);
+  strip.chunk.shrink_to_fit();  // all strips are in memory together
   return strip;
 }
 

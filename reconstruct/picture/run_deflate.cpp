@@ -342,6 +342,7 @@ std::vector<std::byte> zlib_stream_of_runs(std::span<const std::uint8_t> plain) 
   for (int shift = 24; shift >= 0; shift -= 8) {
     stream.push_back(static_cast<std::byte>(sum >> static_cast<unsigned>(shift) & 0xFFU));
   }
+  stream.shrink_to_fit();  // a picture's strips are in memory together
   return stream;
 }
 
