@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
 #include <zlib.h>

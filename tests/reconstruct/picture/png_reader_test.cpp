@@ -1,7 +1,5 @@
 #include "reconstruct/picture/png_reader.hpp"
 
-#include <array>
-#include <csetjmp>
 #include <cstdint>
 #include <vector>
 
