@@ -1,5 +1,6 @@
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,30 +11,38 @@
 #include <sys/resource.h>
 
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
+#include "reconstruct/section/section_record.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
+#include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"
+#include "tools/command_parameters.hpp"
+#include "tools/picture_options.hpp"
 #include "tools/section_options.hpp"
 
 namespace biotomy::tools {
 namespace {
 
-using reconstruct::VolumeBricks;
 using reconstruct::SampleFolder;
 using reconstruct::Section;
 using reconstruct::Vector3;
 using reconstruct::Volume;
+using reconstruct::VolumeBricks;
 
 struct SectionArguments {
   std::string sample;
   std::string output;
   reconstruct::PlaneText plane;
   SectionOptions options;
+  PictureOptions picture;
+  bool json = false;
   bool stats = false;
 };
+
+constexpr int kSidecarIndentation = 2;
 
 std::int64_t peak_rss_bytes() {
   rusage usage{};
@@ -58,10 +67,16 @@ void print_statistics(const Section& section, const Volume& volume, double encod
   std::cerr << line.dump() << '\n';
 }
 
-void run_section(const SectionArguments& arguments) {
+std::filesystem::path sidecar_of(std::filesystem::path picture) {
+  return picture.replace_extension(".json");
+}
+
+void run_section(const SectionArguments& arguments, const CLI::App& command) {
   reconstruct::picture_format(arguments.output);
+  const int quality = jpeg_quality(arguments.picture);
   const SectionChoices chosen = choices(arguments.options);
-  const Volume volume = Volume::open(SampleFolder::open(arguments.sample).volume_path());
+  const SampleFolder sample = SampleFolder::open(arguments.sample);
+  const Volume volume = Volume::open(sample.volume_path());
   const Vector3& spacing = volume.cuboid().spacing;
   const reconstruct::Plane plane =
       reconstruct::parse_plane("--", arguments.plane, chosen.unit, spacing);
@@ -70,9 +85,18 @@ void run_section(const SectionArguments& arguments) {
   const Section section =
       reconstruct::cut_section(source, {plane, reconstruct::section_basis(chosen.basis, plane),
                                         style_for(chosen, arguments.options, spacing)});
+  const reconstruct::SectionRecord record{
+      sample.description().name, volume.cuboid(), plane, section.outline,
+      section.image.size(),      {0, 0},          {0},   command_parameters(command)};
   const auto start = std::chrono::steady_clock::now();
-  reconstruct::write_section_image(arguments.output, section.image, section.outline.grid.pixel);
+  reconstruct::write_section_image(arguments.output, section.image,
+                                   reconstruct::picture_notes(record), quality);
   const std::chrono::duration<double> encoding = std::chrono::steady_clock::now() - start;
+  if (arguments.json) {
+    reconstruct::write_durably(
+        sidecar_of(arguments.output),
+        reconstruct::json_text(reconstruct::to_json(record), kSidecarIndentation) + '\n');
+  }
   if (arguments.stats) {
     print_statistics(section, volume, encoding.count());
   }
@@ -91,10 +115,14 @@ void add_section_command(CLI::App& app) {
                       "A normal of the plane, a,b,c: a direction in space, whatever the unit");
   command->add_option("--through", arguments->plane.through, "A point of the plane, x,y,z");
   add_section_options(*command, arguments->options);
+  add_picture_options(*command, arguments->picture);
+  command->add_flag("--json", arguments->json,
+                    "Beside the picture a .json of its name: the plane, the polygon, and the "
+                    "matrices from pixels to the sample and back");
   command->add_flag("--stats", arguments->stats, "Print one line of JSON on stderr");
-  command->add_option("-o,--output", arguments->output, "The picture: .png, .tif or .tiff")
+  command->add_option("-o,--output", arguments->output, "The picture: .png, .tif or .jpg")
       ->required();
-  command->callback([arguments] { run_section(*arguments); });
+  command->callback([arguments, command] { run_section(*arguments, *command); });
 }
 
 }  // namespace biotomy::tools

@@ -1,35 +1,39 @@
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/section/film.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section_image.hpp"
+#include "reconstruct/section/section_record.hpp"
 #include "reconstruct/section/series.hpp"
+#include "reconstruct/section/series_folder.hpp"
 #include "reconstruct/section/series_frames.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"
+#include "tools/command_parameters.hpp"
+#include "tools/interruption.hpp"
+#include "tools/picture_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
 
 namespace biotomy::tools {
 namespace {
 
-namespace fs = std::filesystem;
-
 using reconstruct::InvalidRequest;
 using reconstruct::SampleError;
 using reconstruct::Series;
+using reconstruct::SeriesFrames;
 using reconstruct::Vector3;
 
 /// As they were typed; what was not given is none.
@@ -44,7 +48,10 @@ struct SeriesArguments {
   std::string output;
   std::optional<std::string> movie;
   std::string rate = "25";
+  std::string format = "png";
+  bool no_scale_bar = false;
   SectionOptions options;
+  PictureOptions picture;
 };
 
 Vector3 parse_axis(const std::string& text) {
@@ -106,47 +113,110 @@ Series translation(const SeriesArguments& arguments, const SectionChoices& chose
   return reconstruct::translation_series(asked, chosen.basis, cuboid);
 }
 
-// Frames of an older series among the new ones would be taken for theirs.
-void make_empty_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw SampleError(folder.string() + ": the folder can't be made: " + error.message());
-  }
-  if (!fs::is_empty(folder)) {
-    throw SampleError(folder.string() + ": the folder is not empty: name a new one");
-  }
-}
-
 using MakeSeries = Series (*)(const SeriesArguments&, const SectionChoices&,
                               const reconstruct::Cuboid&);
 
-void run_series(const SeriesArguments& arguments, MakeSeries make_series) {
+std::string extension_of(const SeriesArguments& arguments) {
+  const std::string extension = '.' + arguments.format;
+  if (extension != ".png" && extension != ".tif" && extension != ".jpg") {
+    throw InvalidRequest("--format '" + arguments.format + "': there are png, tif, jpg");
+  }
+  return extension;
+}
+
+std::vector<std::string> names_of(const Series& series, const std::string& extension) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < series.frames.size(); ++i) {
+    names.push_back(reconstruct::frame_file_name(series, i, extension));
+  }
+  return names;
+}
+
+/// All that makes the series what it is: two series of the same description have the same frames.
+/// A sample that is still being ground is another one with each layer.
+nlohmann::ordered_json describe(const reconstruct::SampleDescription& sample,
+                                const reconstruct::Volume& volume, const SeriesFrames& frames,
+                                const std::vector<std::string>& names,
+                                const nlohmann::ordered_json& parameters) {
+  const auto& [size, spacing] = volume.cuboid();
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    list.push_back({{"value", frames.series().frames[i].value}, {"file", names[i]}});
+  }
+  return {{"software", "Biotomy " BIOTOMY_VERSION},
+          {"sample",
+           {{"name", sample.name},
+            {"created", sample.created},
+            {"size", {size.x, size.y, size.z}},
+            {"spacing_um", {spacing.x, spacing.y, spacing.z}},
+            {"bits", volume.bits()},
+            {"layers_in_volume", volume.layers_present()}}},
+          {"parameters", parameters},
+          {"pixel_um", frames.pixel()},
+          {"unit", frames.series().unit},
+          {"frames", list}};
+}
+
+/// What one frame's file says of it.
+reconstruct::PictureNotes notes_of(const SeriesFrames& frames, std::size_t index,
+                                   const std::string& sample, const reconstruct::Cuboid& cuboid,
+                                   const nlohmann::ordered_json& parameters) {
+  const auto& outline = frames.outline(index);
+  if (!outline) {
+    return {frames.pixel(), sample, ""};
+  }
+  return reconstruct::picture_notes({sample,
+                                     cuboid,
+                                     frames.series().frames[index].plane,
+                                     *outline,
+                                     frames.frame_size(),
+                                     frames.first_pixel(index),
+                                     {0},
+                                     parameters});
+}
+
+void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeSeries make_series) {
+  const Interruption interruption;
   const SectionChoices chosen = choices(arguments.options);
   const double rate = reconstruct::parse_number("--rate", arguments.rate);
+  const std::string extension = extension_of(arguments);
+  const int quality = jpeg_quality(arguments.picture);
   if (arguments.movie) {
     reconstruct::check_film_name(*arguments.movie);
   }
-  const reconstruct::Volume volume =
-      reconstruct::Volume::open(reconstruct::SampleFolder::open(arguments.sample).volume_path());
+  const auto sample = reconstruct::SampleFolder::open(arguments.sample);
+  const std::string& sample_name = sample.description().name;
+  const auto volume = reconstruct::Volume::open(sample.volume_path());
   reconstruct::VolumeBricks source(volume, chosen.cache_bytes);
-  const reconstruct::SeriesFrames frames(
-      source, make_series(arguments, chosen, volume.cuboid()),
-      style_for(chosen, arguments.options, volume.cuboid().spacing));
-
+  const SeriesFrames frames(source, make_series(arguments, chosen, volume.cuboid()),
+                            style_for(chosen, arguments.options, volume.cuboid().spacing),
+                            !arguments.no_scale_bar);
+  const nlohmann::ordered_json parameters = command_parameters(command);
+  const std::vector<std::string> names = names_of(frames.series(), extension);
+  const reconstruct::SeriesFolder folder(
+      arguments.output, describe(sample.description(), volume, frames, names, parameters), names);
   std::optional<reconstruct::Film> film;
   if (arguments.movie) {
     film.emplace(*arguments.movie, rate, frames.frame_size());
   }
-  const fs::path folder = arguments.output;
-  make_empty_folder(folder);
+
+  const int stored_type = arguments.format == "jpg" ? CV_8UC3 : frames.frame_type();
   ProgressBar progress("Cutting", "frames");
   for (std::size_t i = 0; i < frames.count(); ++i) {
-    const cv::Mat frame = frames.draw(i);
-    reconstruct::write_section_image(folder / reconstruct::frame_file_name(frames.series(), i),
-                                     frame, frames.pixel());
+    if (interruption.asked()) {
+      throw SampleError(arguments.output + ": interrupted after " + std::to_string(i) + " of " +
+                        std::to_string(frames.count()) +
+                        " frames; the same command again takes the series up");
+    }
+    auto frame = folder.frame(i, frames.frame_size(), stored_type);
+    if (!frame) {
+      frame = frames.draw(i);
+      reconstruct::write_section_image(
+          folder.frame_path(i), *frame,
+          notes_of(frames, i, sample_name, volume.cuboid(), parameters), quality);
+    }
     if (film) {
-      film->add(frame);
+      film->add(*frame);
     }
     progress.update(static_cast<std::int64_t>(i + 1), static_cast<std::int64_t>(frames.count()));
   }
@@ -162,12 +232,18 @@ std::string colour_text(const reconstruct::Colour& colour) {
 
 void add_shared_options(CLI::App& command, SeriesArguments& arguments) {
   arguments.options.background = colour_text(reconstruct::kGreyBlue);
-  command.add_option("-o,--output", arguments.output, "A new folder for the frames, PNG")
+  command
+      .add_option("-o,--output", arguments.output,
+                  "A folder for the frames; a new one, or one of this very series to be taken up")
       ->required();
+  command.add_option("--format", arguments.format, "Of the frames: png, tif or jpg")
+      ->capture_default_str();
+  command.add_flag("--no-scale-bar", arguments.no_scale_bar, "The label alone below the pictures");
   command.add_option("--movie", arguments.movie, "Also a film of them, .mp4 (H.264)");
   command.add_option("--rate", arguments.rate, "Frames of the film in a second")
       ->capture_default_str();
   add_section_options(command, arguments.options);
+  add_picture_options(command, arguments.picture);
 }
 
 }  // namespace
@@ -187,7 +263,7 @@ void add_series_command(CLI::App& app) {
   rotate->add_option("--to", arguments->to, "Last angle, degrees; 180");
   rotate->add_option("--step", arguments->step, "Degrees between frames")->required();
   add_shared_options(*rotate, *arguments);
-  rotate->callback([arguments] { run_series(*arguments, rotation); });
+  rotate->callback([arguments, rotate] { run_series(*arguments, *rotate, rotation); });
 
   CLI::App* translate = command->add_subcommand("translate", "Moves the plane along its normal");
   translate->add_option("--normal", arguments->normal, "Of the planes, a,b,c")->required();
@@ -197,7 +273,7 @@ void add_series_command(CLI::App& app) {
   translate->add_option("--to", arguments->to, "Last offset; where the sample ends");
   translate->add_option("--step", arguments->step, "Distance between frames")->required();
   add_shared_options(*translate, *arguments);
-  translate->callback([arguments] { run_series(*arguments, translation); });
+  translate->callback([arguments, translate] { run_series(*arguments, *translate, translation); });
 }
 
 }  // namespace biotomy::tools

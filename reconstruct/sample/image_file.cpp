@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/jpeg_reader.hpp"
+#include "reconstruct/picture/png_reader.hpp"
 #include "reconstruct/sample/image_integrity.hpp"
 #include "reconstruct/sample/tiff_image.hpp"
 
@@ -48,25 +49,12 @@ std::vector<std::byte> read_whole(const fs::path& path) {
   return bytes;
 }
 
-cv::Mat to_rgb(const cv::Mat& image, const fs::path& path) {
-  if (image.depth() != CV_8U && image.depth() != CV_16U) {
-    throw SampleError(path.string() + ": is neither of 8 nor of 16 bits a colour");
+cv::Mat decode(std::span<const std::byte> bytes, Format format) {
+  const bool png = format == Format::png;
+  if (const auto damage = png ? png_damage(bytes) : jpeg_damage(bytes)) {
+    throw SampleError("is damaged: " + *damage);
   }
-  cv::Mat rgb;
-  switch (image.channels()) {
-    case 1:
-      cv::cvtColor(image, rgb, cv::COLOR_GRAY2RGB);
-      return rgb;
-    case 3:
-      cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
-      return rgb;
-    case 4:
-      cv::cvtColor(image, rgb, cv::COLOR_BGRA2RGB);
-      return rgb;
-    default:
-      throw SampleError(path.string() + ": has " + std::to_string(image.channels()) +
-                        " channels; expected grey, RGB or RGBA");
-  }
+  return png ? decode_png(bytes) : decode_jpeg(bytes);
 }
 
 }  // namespace
@@ -84,23 +72,13 @@ cv::Mat read_image_file(const fs::path& path) {
     throw SampleError(path.string() + ": is not a PNG, TIFF or JPEG by its name");
   }
   const std::vector<std::byte> bytes = read_whole(path);
-  // OpenCV fills what a truncated file lacks and says nothing that a program could hear.
-  const auto damage = format == Format::png ? png_damage(bytes) : jpeg_damage(bytes);
-  if (damage) {
-    throw SampleError(path.string() + ": is damaged: " + *damage);
-  }
-  cv::Mat image;
   try {
-    image = cv::imdecode(
-        cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::byte*>(bytes.data())),
-        cv::IMREAD_UNCHANGED);
+    return decode(bytes, format);
+  } catch (const SampleError& error) {
+    throw SampleError(path.string() + ": " + error.what());
   } catch (const cv::Exception&) {
-    image.release();  // too large, for instance; the message below serves
+    throw SampleError(path.string() + ": there is no memory for the picture");
   }
-  if (image.empty()) {
-    throw SampleError(path.string() + ": cannot be decoded");
-  }
-  return to_rgb(image, path);
 }
 
 }  // namespace biotomy::reconstruct

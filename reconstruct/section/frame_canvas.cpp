@@ -1,6 +1,7 @@
 #include "reconstruct/section/frame_canvas.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -9,11 +10,12 @@
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double kWidthForFullSize = 800.0;  // pixels; wider pictures get larger letters
+constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;  // has ASCII alone: "um" and not the Greek letter
+constexpr double kWidthForFullSize = 800.0;      // pixels; wider pictures get larger letters
 constexpr double kLeastTextScale = 0.5;
 constexpr int kMargin = 8;
 constexpr double kLevels8To16 = 257.0;
+constexpr Colour kWhite{255, 255, 255};
 
 int even(int length) {
   return length + length % 2;
@@ -28,38 +30,64 @@ cv::Scalar levels(const Colour& colour, int depth) {
   return {scale * colour[0], scale * colour[1], scale * colour[2]};
 }
 
+int text_width(const std::string& text, double text_scale) {
+  int baseline = 0;
+  return cv::getTextSize(text, kFont, text_scale, stroke(text_scale), &baseline).width;
+}
+
 }  // namespace
 
 FrameCanvas::FrameCanvas(cv::Size largest_picture, const std::string& longest_label,
-                         const Colour& background)
+                         const Colour& background, std::optional<ScaleBar> bar)
     : text_scale_(std::max(kLeastTextScale, largest_picture.width / kWidthForFullSize)),
-      strip_height_(0),
-      baseline_(0),
-      background_(background) {
+      background_(background),
+      bar_(std::move(bar)) {
   const cv::Size text =
-      cv::getTextSize(longest_label, kFont, text_scale_, stroke(text_scale_), &baseline_);
-  strip_height_ = text.height + baseline_ + 2 * kMargin;
-  size_ = {even(std::max(largest_picture.width, text.width + 2 * kMargin)),
+      cv::getTextSize(longest_label, kFont, text_scale_, stroke(text_scale_), &below_baseline_);
+  text_height_ = text.height;
+  strip_height_ = text.height + below_baseline_ + 2 * kMargin;
+  size_ = {even(std::max(largest_picture.width, strip_width(text.width))),
            even(largest_picture.height + strip_height_)};
 }
 
-cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {
-  const Colour white{255, 255, 255};
-  cv::Mat frame(size_, type, levels(background_, CV_MAT_DEPTH(type)));
-  const cv::Point left_of_baseline(kMargin, size_.height - kMargin - baseline_);
-  cv::putText(frame, label, left_of_baseline, kFont, text_scale_, levels(white, frame.depth()),
+int FrameCanvas::strip_width(int label_width) const {
+  const int label = label_width + 2 * kMargin;
+  return bar_ ? label + bar_->pixels + text_width(bar_->label, text_scale_) + 3 * kMargin : label;
+}
+
+void FrameCanvas::draw_bar(cv::Mat& frame, int baseline) const {
+  const cv::Scalar white = levels(kWhite, frame.depth());
+  const int text_left = size_.width - kMargin - text_width(bar_->label, text_scale_);
+  cv::putText(frame, bar_->label, {text_left, baseline}, kFont, text_scale_, white,
               stroke(text_scale_), cv::LINE_AA);
+  const int thickness = std::max(2, text_height_ / 4);
+  const cv::Rect bar(text_left - kMargin - bar_->pixels,
+                     baseline - text_height_ / 2 - thickness / 2, bar_->pixels, thickness);
+  frame(bar).setTo(white);
+}
+
+cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {
+  cv::Mat frame(size_, type, levels(background_, CV_MAT_DEPTH(type)));
+  const int baseline = size_.height - kMargin - below_baseline_;
+  cv::putText(frame, label, {kMargin, baseline}, kFont, text_scale_, levels(kWhite, frame.depth()),
+              stroke(text_scale_), cv::LINE_AA);
+  if (bar_) {
+    draw_bar(frame, baseline);
+  }
   return frame;
 }
 
-cv::Mat FrameCanvas::draw(const cv::Mat& picture, const std::string& label) const {
+cv::Point FrameCanvas::place_of(cv::Size picture) const {
   const cv::Size room(size_.width, size_.height - strip_height_);
-  if (picture.cols > room.width || picture.rows > room.height) {
-    throw InvalidRequest("a frame is larger than the largest of its series");
+  if (picture.width > room.width || picture.height > room.height) {
+    throw InvalidRequest("a picture is larger than the canvas of its series");
   }
+  return {(room.width - picture.width) / 2, (room.height - picture.height) / 2};
+}
+
+cv::Mat FrameCanvas::draw(const cv::Mat& picture, const std::string& label) const {
+  const cv::Rect centred(place_of(picture.size()), picture.size());
   cv::Mat frame = draw_empty(picture.type(), label);
-  const cv::Rect centred((room.width - picture.cols) / 2, (room.height - picture.rows) / 2,
-                         picture.cols, picture.rows);
   picture.copyTo(frame(centred));
   return frame;
 }

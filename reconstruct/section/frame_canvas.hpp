@@ -1,36 +1,48 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <opencv2/core/mat.hpp>
 
 #include "reconstruct/section/sampler.hpp"
+#include "reconstruct/section/scale_bar.hpp"
 
 namespace biotomy::reconstruct {
 
 /// What the frames of a series are drawn on: as wide and as high as the largest picture, a strip
-/// for the label below it, so that the label covers none of the picture. Sides are even, as films
-/// want them.
+/// below it for the label on the left and the scale bar on the right, so that they cover none of
+/// the picture. Sides are even, as films want them.
 class FrameCanvas {
  public:
-  /// `longest_label` is ASCII and has to fit.
-  FrameCanvas(cv::Size largest_picture, const std::string& longest_label, const Colour& background);
+  /// `longest_label` is ASCII and has to fit; so has the bar, if there is one.
+  FrameCanvas(cv::Size largest_picture, const std::string& longest_label, const Colour& background,
+              std::optional<ScaleBar> bar = std::nullopt);
 
   cv::Size size() const { return size_; }
+
+  /// Where the first pixel of a picture of this size comes to lie. Throws InvalidRequest for a
+  /// picture that is larger than the largest.
+  cv::Point place_of(cv::Size picture) const;
 
   /// `picture` (CV_8UC3 or CV_16UC3, R G B, no larger than the largest) centred on the background,
   /// the label in the strip.
   cv::Mat draw(const cv::Mat& picture, const std::string& label) const;
 
-  /// The background with its label alone; `type` is CV_8UC3 or CV_16UC3.
+  /// The background with its label and its scale bar alone; `type` is CV_8UC3 or CV_16UC3.
   cv::Mat draw_empty(int type, const std::string& label) const;
 
  private:
+  int strip_width(int label_width) const;
+  void draw_bar(cv::Mat& frame, int baseline) const;
+
   double text_scale_;
-  int strip_height_;
-  int baseline_;
+  int text_height_ = 0;
+  int strip_height_ = 0;
+  int below_baseline_ = 0;
   cv::Size size_;
   Colour background_;
+  std::optional<ScaleBar> bar_;
 };
 
 }  // namespace biotomy::reconstruct

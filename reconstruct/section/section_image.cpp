@@ -1,79 +1,15 @@
 #include "reconstruct/section/section_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
 #include <string>
-#include <vector>
-
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <zlib.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/png_writer.hpp"
+#include "reconstruct/picture/tiff_writer.hpp"
 #include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::reconstruct {
-namespace {
-
-constexpr double kMicrometresPerMetre = 1e6;
-constexpr double kMicrometresPerCentimetre = 1e4;
-constexpr int kCentimetres = 3;     // TIFF's RESUNIT_CENTIMETER
-constexpr int kDeflate = 8;         // TIFF's COMPRESSION_ADOBE_DEFLATE
-constexpr std::uint8_t kMetre = 1;  // of PNG's pHYs
-
-// PNG: the signature of 8 bytes, then the chunk IHDR of 25; pHYs may stand right after it.
-constexpr std::ptrdiff_t kAfterHeader = 8 + 25;
-
-void append_big_endian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> static_cast<unsigned>(shift)));
-  }
-}
-
-// OpenCV writes no pHYs (PNG specification, 11.3.5.3).
-void insert_pixel_size(std::vector<std::uint8_t>& png, double pixel) {
-  const double per_metre = std::round(kMicrometresPerMetre / pixel);
-  if (per_metre < 1.0 || per_metre > std::numeric_limits<std::int32_t>::max()) {
-    return;  // what the format can't say is left unsaid
-  }
-  std::vector<std::uint8_t> chunk;
-  append_big_endian(chunk, 9);
-  for (const char letter : {'p', 'H', 'Y', 's'}) {
-    chunk.push_back(static_cast<std::uint8_t>(letter));
-  }
-  append_big_endian(chunk, static_cast<std::uint32_t>(per_metre));
-  append_big_endian(chunk, static_cast<std::uint32_t>(per_metre));
-  chunk.push_back(kMetre);
-  const auto crc = crc32(0, chunk.data() + 4, static_cast<uInt>(chunk.size() - 4));
-  append_big_endian(chunk, static_cast<std::uint32_t>(crc));
-  png.insert(png.begin() + kAfterHeader, chunk.begin(), chunk.end());
-}
-
-std::vector<std::uint8_t> encode(const cv::Mat& bgr, PictureFormat format, double pixel) {
-  std::vector<std::uint8_t> bytes;
-  if (format == PictureFormat::png) {
-    cv::imencode(".png", bgr, bytes);
-    insert_pixel_size(bytes, pixel);
-    return bytes;
-  }
-  std::vector<int> parameters{cv::IMWRITE_TIFF_COMPRESSION, kDeflate};
-  const double per_centimetre = std::round(kMicrometresPerCentimetre / pixel);
-  if (per_centimetre >= 1.0 && per_centimetre <= std::numeric_limits<int>::max()) {
-    const int resolution = static_cast<int>(per_centimetre);
-    parameters.insert(parameters.end(),
-                      {cv::IMWRITE_TIFF_RESUNIT, kCentimetres, cv::IMWRITE_TIFF_XDPI, resolution,
-                       cv::IMWRITE_TIFF_YDPI, resolution});
-  }
-  cv::imencode(".tif", bgr, bytes, parameters);
-  return bytes;
-}
-
-}  // namespace
 
 PictureFormat picture_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -85,21 +21,29 @@ PictureFormat picture_format(const std::filesystem::path& path) {
   if (extension == ".tif" || extension == ".tiff") {
     return PictureFormat::tiff;
   }
+  if (extension == ".jpg" || extension == ".jpeg") {
+    return PictureFormat::jpeg;
+  }
   throw InvalidRequest("'" + path.string() +
-                       "' is no picture that can be written: name it .png, .tif or .tiff");
+                       "' is no picture that can be written: name it .png, .tif or .jpg");
 }
 
-void write_section_image(const std::filesystem::path& path, const cv::Mat& image, double pixel) {
-  const PictureFormat format = picture_format(path);
-  std::vector<std::uint8_t> bytes;
-  try {
-    cv::Mat bgr;
-    cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
-    bytes = encode(bgr, format, pixel);
-  } catch (const cv::Exception& error) {
-    throw SampleError(path.string() + ": the picture can't be encoded: " + error.err);
+std::vector<std::byte> encode_section_image(const cv::Mat& image, PictureFormat format,
+                                            const PictureNotes& notes, int jpeg_quality) {
+  switch (format) {
+    case PictureFormat::png:
+      return encode_png(image, notes);
+    case PictureFormat::tiff:
+      return encode_tiff(image, notes);
+    case PictureFormat::jpeg:
+      return encode_jpeg(image, notes, jpeg_quality);
   }
-  write_durably(path, std::as_bytes(std::span(bytes)));
+  throw InvalidRequest("there is no such format of pictures");
+}
+
+void write_section_image(const std::filesystem::path& path, const cv::Mat& image,
+                         const PictureNotes& notes, int jpeg_quality) {
+  write_durably(path, encode_section_image(image, picture_format(path), notes, jpeg_quality));
 }
 
 }  // namespace biotomy::reconstruct

@@ -171,12 +171,12 @@ std::string frame_label(const Series& series, std::size_t index) {
   return value_text(series, index) + ' ' + series.unit;
 }
 
-std::string frame_file_name(const Series& series, std::size_t index) {
+std::string frame_file_name(const Series& series, std::size_t index, const std::string& extension) {
   const std::size_t digits =
       std::max<std::size_t>(3, std::to_string(series.frames.size() - 1).size());
   const std::string number = std::to_string(index);
   return std::string(digits - std::min(digits, number.size()), '0') + number + '_' +
-         value_text(series, index) + series.unit + ".png";
+         value_text(series, index) + series.unit + extension;
 }
 
 }  // namespace biotomy::reconstruct

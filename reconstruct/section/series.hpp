@@ -56,7 +56,8 @@ Series translation_series(const Translation& translation, BasisKind kind, const 
 /// The frame's value as it stands in its label: "+012.0 deg".
 std::string frame_label(const Series& series, std::size_t index);
 
-/// Sorted by name, frames are in order: "000_+012.0deg.png".
-std::string frame_file_name(const Series& series, std::size_t index);
+/// Sorted by name, frames are in order: "000_+012.0deg.png". `extension` has its dot.
+std::string frame_file_name(const Series& series, std::size_t index,
+                            const std::string& extension = ".png");
 
 }  // namespace biotomy::reconstruct

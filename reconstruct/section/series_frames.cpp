@@ -10,31 +10,51 @@
 namespace biotomy::reconstruct {
 namespace {
 
-std::vector<std::optional<PixelGrid>> grids_of(const BrickSource& source, const Series& series,
-                                               const SectionStyle& style) {
-  std::vector<std::optional<PixelGrid>> grids;
+using Outlines = std::vector<std::optional<SectionOutline>>;
+
+Outlines outlines_of(const BrickSource& source, const Series& series, const SectionStyle& style) {
+  Outlines outlines;
   for (const SeriesFrame& frame : series.frames) {
     const bool cuts = contact(frame.plane, source.cuboid()).vertices.size() >= 3;
-    grids.push_back(cuts ? std::optional(outline_section(source.cuboid(), source.bits(),
-                                                         {frame.plane, frame.basis, style})
-                                             .grid)
-                         : std::nullopt);
+    outlines.push_back(cuts ? std::optional(outline_section(source.cuboid(), source.bits(),
+                                                            {frame.plane, frame.basis, style}))
+                            : std::nullopt);
   }
-  return grids;
+  return outlines;
 }
 
-cv::Size largest(const std::vector<std::optional<PixelGrid>>& grids) {
+cv::Size size_of(const SectionOutline& outline) {
+  return {outline.grid.columns, outline.grid.rows};
+}
+
+cv::Size largest(const Outlines& outlines) {
   cv::Size size;
-  for (const auto& grid : grids) {
-    if (grid) {
-      size.width = std::max(size.width, grid->columns);
-      size.height = std::max(size.height, grid->rows);
+  for (const auto& outline : outlines) {
+    if (outline) {
+      size.width = std::max(size.width, outline->grid.columns);
+      size.height = std::max(size.height, outline->grid.rows);
     }
   }
   if (size.empty()) {
     throw SampleError("no plane of the series cuts the sample: check its axis, point and range");
   }
   return size;
+}
+
+double pixel_of(const Outlines& outlines) {
+  const auto cut = std::find_if(outlines.begin(), outlines.end(),
+                                [](const auto& outline) { return outline.has_value(); });
+  return cut == outlines.end() ? 0.0 : (*cut)->grid.pixel;
+}
+
+FrameCanvas canvas_for(const Outlines& outlines, const std::string& label, const Colour& background,
+                       bool with_scale_bar) {
+  const cv::Size size = largest(outlines);
+  std::optional<ScaleBar> bar;
+  if (with_scale_bar) {
+    bar = scale_bar(size.width, pixel_of(outlines));
+  }
+  return {size, label, background, bar};
 }
 
 std::string longest_label(const Series& series) {
@@ -46,35 +66,43 @@ std::string longest_label(const Series& series) {
   return longest;
 }
 
-int type_of(const BrickSource& source) {
-  return source.bits() == 16 ? CV_16UC3 : CV_8UC3;
-}
-
 }  // namespace
 
-SeriesFrames::SeriesFrames(BrickSource& source, Series series, const SectionStyle& style)
+SeriesFrames::SeriesFrames(BrickSource& source, Series series, const SectionStyle& style,
+                           bool with_scale_bar)
     : source_(source),
       series_(std::move(series)),
       style_(style),
-      grids_(grids_of(source, series_, style)),
-      canvas_(largest(grids_), longest_label(series_), style.background) {
-  const auto cut =
-      std::find_if(grids_.begin(), grids_.end(), [](const auto& grid) { return grid.has_value(); });
-  pixel_ = (*cut)->pixel;
+      outlines_(outlines_of(source, series_, style)),
+      pixel_(pixel_of(outlines_)),
+      canvas_(canvas_for(outlines_, longest_label(series_), style.background, with_scale_bar)) {
   const double bytes = static_cast<double>(canvas_.size().width) * canvas_.size().height *
-                       static_cast<double>(CV_ELEM_SIZE(type_of(source)));
+                       static_cast<double>(CV_ELEM_SIZE(frame_type()));
   if (bytes > static_cast<double>(style.max_bytes)) {
     throw SampleError("the frames of the series are too large for memory: ask for a larger pixel");
   }
 }
 
+int SeriesFrames::frame_type() const {
+  return source_.bits() == 16 ? CV_16UC3 : CV_8UC3;
+}
+
+const std::optional<SectionOutline>& SeriesFrames::outline(std::size_t index) const {
+  return outlines_.at(index);
+}
+
+cv::Point SeriesFrames::first_pixel(std::size_t index) const {
+  return canvas_.place_of(size_of(outlines_.at(index).value()));
+}
+
 cv::Mat SeriesFrames::draw(std::size_t index) const {
   const std::string label = frame_label(series_, index);
-  const std::optional<PixelGrid>& grid = grids_.at(index);
-  if (!grid) {
-    return canvas_.draw_empty(type_of(source_), label);
+  const std::optional<SectionOutline>& outline = outlines_.at(index);
+  if (!outline) {
+    return canvas_.draw_empty(frame_type(), label);
   }
-  const SampledImage sampled = sample_grid(source_, *grid, style_.interpolation, style_.background);
+  const SampledImage sampled =
+      sample_grid(source_, outline->grid, style_.interpolation, style_.background);
   return canvas_.draw(sampled.image, label);
 }
 

@@ -20,14 +20,23 @@ inline constexpr Colour kGreyBlue{96, 112, 136};
 /// each finds in the source's cache most chunks that the one before has read.
 class SeriesFrames {
  public:
-  /// `source` must outlive it. Throws SampleError when no plane of the series cuts the sample, or
-  /// the frames would be larger than `style.max_bytes`.
-  SeriesFrames(BrickSource& source, Series series, const SectionStyle& style);
+  /// `source` must outlive it. `with_scale_bar`: below each picture, beside its label. Throws
+  /// SampleError when no plane of the series cuts the sample, or the frames would be larger than
+  /// `style.max_bytes`.
+  SeriesFrames(BrickSource& source, Series series, const SectionStyle& style,
+               bool with_scale_bar = true);
 
   std::size_t count() const { return series_.frames.size(); }
   cv::Size frame_size() const { return canvas_.size(); }
   double pixel() const { return pixel_; }  ///< micrometres
+  int frame_type() const;                  ///< CV_8UC3 or CV_16UC3
   const Series& series() const { return series_; }
+
+  /// The section of a frame; none where the plane does not cut the sample.
+  const std::optional<SectionOutline>& outline(std::size_t index) const;
+
+  /// The frame's pixel that is pixel (0, 0) of its section, which there must be.
+  cv::Point first_pixel(std::size_t index) const;
 
   /// CV_8UC3 or CV_16UC3, R G B: the section, centred; the background alone where the plane does
   /// not cut the sample; with its label.
@@ -37,7 +46,7 @@ class SeriesFrames {
   BrickSource& source_;
   Series series_;
   SectionStyle style_;
-  std::vector<std::optional<PixelGrid>> grids_;  // none where the plane does not cut the sample
+  std::vector<std::optional<SectionOutline>> outlines_;
   double pixel_ = 0.0;
   FrameCanvas canvas_;
 };

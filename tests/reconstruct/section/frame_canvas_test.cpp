@@ -1,5 +1,7 @@
 #include "reconstruct/section/frame_canvas.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
@@ -44,6 +46,42 @@ TEST(FrameCanvas, DrawsTheLabelBelowThePicture) {
     EXPECT_GT(cv::norm(different, cv::NORM_INF), 0.0);
     EXPECT_EQ(cv::norm(different.rowRange(0, 200), cv::NORM_INF), 0.0);
   }
+}
+
+TEST(FrameCanvas, DrawsTheScaleBarOnTheRightInItsLength) {
+  const ScaleBar bar{200.0, 57, "200 um"};
+  for (const int type : {CV_8UC3, CV_16UC3}) {
+    const FrameCanvas canvas({400, 100}, "+180.0 deg", kBackground, bar);
+    const cv::Mat frame = canvas.draw_empty(type, "+000.0 deg");
+    cv::Mat eight_bits;
+    frame.convertTo(eight_bits, CV_8U, type == CV_8UC3 ? 1.0 : 1.0 / 257.0);
+    int longest = 0;
+    for (int y = 100; y < frame.rows; ++y) {
+      int run = 0;
+      for (int x = 200; x < frame.cols; ++x) {
+        run = eight_bits.at<cv::Vec3b>(y, x) == cv::Vec3b(255, 255, 255) ? run + 1 : 0;
+        longest = std::max(longest, run);
+      }
+    }
+    EXPECT_EQ(longest, 57);
+  }
+}
+
+TEST(FrameCanvas, IsWideEnoughForLabelAndScaleBar) {
+  const ScaleBar bar{200.0, 20, "200 um"};
+  const FrameCanvas with({10, 10}, "+180.0 deg", kBackground, bar);
+  const FrameCanvas without({10, 10}, "+180.0 deg", kBackground);
+  EXPECT_GT(with.size().width, without.size().width + 20);
+  const cv::Mat left = with.draw_empty(CV_8UC3, "+180.0 deg").colRange(0, without.size().width - 8);
+  EXPECT_EQ(cv::norm(left, without.draw_empty(CV_8UC3, "+180.0 deg").colRange(0, left.cols),
+                     cv::NORM_INF),
+            0.0);
+}
+
+TEST(FrameCanvas, SaysWhereAPictureLies) {
+  const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
+  EXPECT_EQ(canvas.place_of({150, 100}), cv::Point(75, 50));
+  EXPECT_EQ(canvas.place_of({300, 200}), cv::Point(0, 0));
 }
 
 TEST(FrameCanvas, RefusesAPictureLargerThanTheLargest) {

@@ -73,6 +73,32 @@ TEST(SeriesFrames, AreBackgroundWhereThePlaneMisses) {
   EXPECT_EQ(empty.size(), frames.draw(0).size());
 }
 
+TEST(SeriesFrames, HaveAScaleBarUnlessItIsNotWanted) {
+  MemorySource source;
+  const Series series = translation_series(along_z(), BasisKind::layer, source.box);
+  const SeriesFrames with(source, series, grey_blue_style());
+  const SeriesFrames without(source, series, grey_blue_style(), false);
+  EXPECT_GT(with.frame_size().width, without.frame_size().width);  // the sample is a small one
+}
+
+TEST(SeriesFrames, SayWhereTheirSectionLies) {
+  MemorySource source;
+  source.voxel = noise(source.box.size, 255, 1);
+  Translation translation = along_z();
+  translation.from = 0.0;
+  translation.to = 400.0;
+  translation.step = 200.0;
+  const SeriesFrames frames(source, translation_series(translation, BasisKind::layer, source.box),
+                            grey_blue_style());
+  ASSERT_TRUE(frames.outline(0).has_value());
+  EXPECT_EQ(frames.outline(0)->grid.columns, 40);
+  const cv::Mat frame = frames.draw(0);
+  const cv::Point first = frames.first_pixel(0);
+  EXPECT_EQ(frame.at<cv::Vec3b>(first)[0], source.voxel(0, 0, 0, 0));
+  EXPECT_EQ(frame.at<cv::Vec3b>(first + cv::Point(39, 29))[2], source.voxel(39, 29, 0, 2));
+  EXPECT_FALSE(frames.outline(2).has_value());
+}
+
 TEST(SeriesFrames, RefuseASeriesThatMissesTheSampleAltogether) {
   MemorySource source;
   Translation translation = along_z();

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/section/picture_affine.hpp"
+#include "reconstruct/section/section.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -102,6 +104,50 @@ TEST(RotationSeries, NeverFlipsFromOneFrameToTheNext) {
   }
 }
 
+// Over whole turns these planes pass through all that are degenerate for one basis or the other.
+// The matrix from pixels to the sample may differ by the rotation alone: its first two columns are
+// turned by the step, by whose chord they move, and its third is the corner of another rectangle.
+TEST(RotationSeries, PixelsTurnWithThePlaneAndDoNothingElse) {
+  for (const Vector3& axis :
+       {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}, Vector3{1, 2, -1}}) {
+    for (const BasisKind kind : {BasisKind::layer, BasisKind::xz}) {
+      Rotation rotation = about(axis);
+      rotation.step = 5.0;
+      const Vector3 unit = (1.0 / norm(axis)) * axis;
+      const double cosine = std::cos(5.0 * M_PI / 180.0);
+      const double sine = std::sin(5.0 * M_PI / 180.0);
+      const auto turned = [&](const Vector3& v) {
+        return cosine * v + sine * cross(unit, v) + ((1.0 - cosine) * dot(unit, v)) * unit;
+      };
+      std::vector<PictureAffine> affines;
+      for (const SeriesFrame& frame : rotation_series(rotation, kind, kCuboid).frames) {
+        const auto outline =
+            outline_section(kCuboid, 8, {frame.plane, frame.basis, SectionStyle{}});
+        affines.push_back(picture_affine(outline.grid, frame.plane));
+      }
+      ASSERT_EQ(affines.size(), 73U);
+      for (std::size_t i = 1; i < affines.size(); ++i) {
+        for (std::size_t column = 0; column < 2; ++column) {
+          const auto direction = [&](const PictureAffine& affine) {
+            const auto& m = affine.pixel_to_sample;
+            return Vector3{m[0][column], m[1][column], m[2][column]};
+          };
+          expect_near(direction(affines[i]), turned(direction(affines[i - 1])), 1e-9);
+        }
+        // The axis stays where it is in the plane: pixels of its points differ by a shift alone.
+        const Vector3 middle = 0.5 * kCuboid.extent();
+        const PicturePosition one = affines[i].picture_at(middle + 30.0 * unit);
+        const PicturePosition other = affines[i - 1].picture_at(middle + 30.0 * unit);
+        const PicturePosition centre_one = affines[i].picture_at(middle);
+        const PicturePosition centre_other = affines[i - 1].picture_at(middle);
+        EXPECT_NEAR(one.u - centre_one.u, other.u - centre_other.u, 1e-9);
+        EXPECT_NEAR(one.v - centre_one.v, other.v - centre_other.v, 1e-9);
+        EXPECT_NEAR(one.distance, 0.0, 1e-9);
+      }
+    }
+  }
+}
+
 TEST(RotationSeries, BasesStayOrthonormalAndInTheirPlanes) {
   for (const SeriesFrame& frame :
        rotation_series(about({1, 2, -1}), BasisKind::layer, kCuboid).frames) {
@@ -162,6 +208,7 @@ TEST(FrameLabel, SaysTheAngleWithItsSign) {
   EXPECT_EQ(frame_label(series, 1), "+000.0 deg");
   EXPECT_EQ(frame_label(series, 2), "+012.0 deg");
   EXPECT_EQ(frame_file_name(series, 2), "002_+012.0deg.png");
+  EXPECT_EQ(frame_file_name(series, 0, ".tif"), "000_-012.0deg.tif");
 }
 
 TEST(FrameLabel, HasAsManyDecimalsAsTheStepNeeds) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <opencv2/core/mat.hpp>
+
+namespace biotomy::reconstruct {
+
+/// A JPEG file in memory as CV_8UC3, R G B: grey becomes R = G = B, CMYK is refused. Whatever
+/// libjpeg warns of is an error, since JPEG has no checksum that would tell damage better.
+/// Throws SampleError that says what is wrong, and leaves the file's name to the caller.
+cv::Mat decode_jpeg(std::span<const std::byte> file);
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,119 @@
+#include "reconstruct/picture/png_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <csetjmp>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <png.h>
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+constexpr std::uint32_t kLongestSide = 1U << 20;  // refuses nonsense before memory is asked for it
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
+
+/// A file being read. libpng jumps out of the methods on an error, so that nothing in them may
+/// need a destructor; this has it.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> file) : rest_(file) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore);
+    info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+  }
+  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  bool read_header() {
+    if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) {
+      return false;
+    }
+    png_set_read_fn(png_, this, read);
+    png_set_user_limits(png_, kLongestSide, kLongestSide);
+    png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+    png_read_info(png_, info_);
+    png_set_expand_gray_1_2_4_to_8(png_);
+    png_set_palette_to_rgb(png_);
+    png_set_gray_to_rgb(png_);
+    png_set_strip_alpha(png_);
+    if (std::endian::native == std::endian::little) {
+      png_set_swap(png_);
+    }
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    return true;
+  }
+
+  std::uint32_t width() { return png_get_image_width(png_, info_); }
+  std::uint32_t height() { return png_get_image_height(png_, info_); }
+  int bits() { return png_get_bit_depth(png_, info_); }
+  std::size_t row_bytes() { return png_get_rowbytes(png_, info_); }
+
+  bool read_pixels(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png_)) != 0) {
+      return false;
+    }
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+  const char* message() const { return message_.data(); }
+
+ private:
+  static void fail(png_structp png, png_const_charp message) {
+    auto& reader = *static_cast<Reader*>(png_get_error_ptr(png));
+    std::strncpy(reader.message_.data(), message, reader.message_.size() - 1);
+    png_longjmp(png, 1);
+  }
+  static void ignore(png_structp, png_const_charp) {}
+  static void read(png_structp png, png_bytep bytes, std::size_t size) {
+    auto& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest_;
+    if (size > rest.size()) {
+      png_error(png, "it is truncated");
+    }
+    std::memcpy(bytes, rest.data(), size);
+    rest = rest.subspan(size);
+  }
+
+  std::span<const std::byte> rest_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  std::array<char, 128> message_{};
+};
+
+}  // namespace
+
+cv::Mat decode_png(std::span<const std::byte> file) {
+  Reader picture(file);
+  if (!picture.read_header()) {
+    throw SampleError(std::string("cannot be decoded: ") + picture.message());
+  }
+  const std::uint64_t pixels = std::uint64_t{picture.width()} * picture.height();
+  cv::Mat rgb;
+  if (pixels > kMostPixels) {
+    throw SampleError("its size makes no sense");
+  }
+  rgb.create(static_cast<int>(picture.height()), static_cast<int>(picture.width()),
+             picture.bits() == 16 ? CV_16UC3 : CV_8UC3);
+  if (picture.row_bytes() != static_cast<std::size_t>(rgb.cols) * rgb.elemSize()) {
+    throw SampleError("its pixels are laid out in a way that is not supported: convert it");
+  }
+  std::vector<png_bytep> rows(static_cast<std::size_t>(rgb.rows));
+  for (int y = 0; y < rgb.rows; ++y) {
+    rows[static_cast<std::size_t>(y)] = rgb.ptr(y);
+  }
+  if (!picture.read_pixels(rows.data())) {
+    throw SampleError(std::string("cannot be decoded: ") + picture.message());
+  }
+  return rgb;
+}
+
+}  // namespace biotomy::reconstruct

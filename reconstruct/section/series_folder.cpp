@@ -1,0 +1,131 @@
+#include "reconstruct/section/series_folder.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/section/section_record.hpp"
+#include "reconstruct/store/durable_file.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDescriptionName = "series.json";
+constexpr const char* kFilmExtension = ".mp4";
+
+FileDescriptor locked(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    throw SampleError(path.string() + ": the folder can't be made: " + error.message());
+  }
+  FileDescriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.is_open()) {
+    throw SampleError(path.string() + ": the folder can't be opened");
+  }
+  if (::flock(folder.get(), LOCK_EX | LOCK_NB) != 0) {
+    throw SampleError(path.string() + ": another process is cutting a series into this folder");
+  }
+  return folder;
+}
+
+bool is_digit_or_dash(char letter) {
+  return letter == '-' || (letter >= '0' && letter <= '9');
+}
+
+/// Whether a file of that name is what write_durably leaves when it is killed while it writes
+/// `target`: ".target." and numbers.
+bool is_leftover_of(const std::string& name, const std::string& target) {
+  const std::string begin = "." + target + ".";
+  return name.size() > begin.size() && name.starts_with(begin) &&
+         std::all_of(name.begin() + static_cast<std::ptrdiff_t>(begin.size()), name.end(),
+                     is_digit_or_dash);
+}
+
+bool is_film(const fs::path& name) {
+  return name.extension() == kFilmExtension ||
+         name.string().ends_with(std::string(kFilmExtension) + ".partial");
+}
+
+}  // namespace
+
+SeriesFolder::SeriesFolder(fs::path path, const nlohmann::ordered_json& description,
+                           std::vector<std::string> frames)
+    : path_(std::move(path)), frames_(std::move(frames)), lock_(locked(path_)) {
+  const std::string text = json_text(description, 2) + '\n';
+  const fs::path file = path_ / kDescriptionName;
+  if (fs::exists(file)) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string there{std::istreambuf_iterator<char>(in), {}};
+    if (there != text) {
+      throw SampleError(path_.string() +
+                        ": the folder holds another series, of other parameters or another state "
+                        "of the sample: name a new one, or remove it");
+    }
+    remove_leftovers();
+    refuse_strangers();
+    return;
+  }
+  remove_leftovers();
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
+    if (!is_film(entry.path().filename())) {
+      throw SampleError(path_.string() + ": the folder is not empty: name a new one");
+    }
+  }
+  write_durably(file, text);
+}
+
+void SeriesFolder::remove_leftovers() const {
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
+    const std::string name = entry.path().filename().string();
+    const auto left = [&](const std::string& target) { return is_leftover_of(name, target); };
+    if (name.starts_with('.') &&
+        (left(kDescriptionName) || std::any_of(frames_.begin(), frames_.end(), left))) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& each : leftovers) {
+    fs::remove(each);
+  }
+}
+
+void SeriesFolder::refuse_strangers() const {
+  std::vector<std::string> known = frames_;
+  known.emplace_back(kDescriptionName);
+  std::sort(known.begin(), known.end());
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
+    const fs::path name = entry.path().filename();
+    if (!is_film(name) && !std::binary_search(known.begin(), known.end(), name.string())) {
+      throw SampleError(entry.path().string() +
+                        ": is no part of the series in this folder: take it away");
+    }
+  }
+}
+
+std::optional<cv::Mat> SeriesFolder::frame(std::size_t index, cv::Size size, int type) const {
+  const fs::path path = frame_path(index);
+  if (!fs::exists(path)) {
+    return std::nullopt;
+  }
+  try {
+    cv::Mat picture = read_image_file(path);
+    if (picture.size() == size && picture.type() == type) {
+      return picture;
+    }
+  } catch (const SampleError&) {
+    // Damaged: it is cut again.
+  }
+  return std::nullopt;
+}
+
+}  // namespace biotomy::reconstruct

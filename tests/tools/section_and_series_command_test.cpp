@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <sys/time.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/image_file.hpp"
+#include "tests/full_disk.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tools/command.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+using reconstruct::InvalidRequest;
+using reconstruct::message_of;
+using reconstruct::names_in;
+using reconstruct::read_file;
+using reconstruct::read_image_file;
+using reconstruct::SampleError;
+using testing::HasSubstr;
+
+nlohmann::json json_in(const fs::path& path) {
+  const auto bytes = read_file(path);
+  return nlohmann::json::parse(reinterpret_cast<const char*>(bytes.data()),
+                               reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+}
+
+/// Runs `biotomy` on a sample of 6 layers of 40 × 30 voxels of 10 × 10 × 20 µm.
+class SectionAndSeries : public testing::Test {
+ protected:
+  SectionAndSeries() {
+    const fs::path images = folder_ / "images";
+    fs::create_directory(images);
+    for (int i = 0; i < 6; ++i) {
+      reconstruct::save_rgb(images / (std::to_string(i) + ".png"),
+                            reconstruct::test_image(40, 30, CV_8UC3, static_cast<unsigned>(i)));
+    }
+    run({"import", images, "--spacing", "10,10,20", "-o", sample_});
+  }
+
+  static void run(std::vector<std::string> arguments) {
+    CLI::App app;
+    add_import_command(app);
+    add_section_command(app);
+    add_series_command(app);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    app.parse(arguments);
+  }
+
+  void section(const fs::path& output, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"section",   sample_,  "--normal", "0,0,1",
+                                   "--through", "0,0,40", "-o",       output};
+    words.insert(words.end(), more.begin(), more.end());
+    run(words);
+  }
+
+  void rotation(const fs::path& output, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"series", sample_,  "rotate", "--axis", "x",   "--to",
+                                   "40",     "--step", "10",     "-o",     output};
+    words.insert(words.end(), more.begin(), more.end());
+    run(words);
+  }
+
+  tests::TemporaryFolder folder_;
+  std::string sample_ = folder_ / "sample";
+};
+
+TEST_F(SectionAndSeries, ASectionIsTheSameInBothLosslessFormats) {
+  section(folder_ / "a.png");
+  section(folder_ / "a.tif");
+  EXPECT_TRUE(reconstruct::same_pixels(read_image_file(folder_ / "a.png"),
+                                       reconstruct::test_image(40, 30, CV_8UC3, 2)));
+  EXPECT_TRUE(reconstruct::same_pixels(read_image_file(folder_ / "a.tif"),
+                                       reconstruct::test_image(40, 30, CV_8UC3, 2)));
+}
+
+TEST_F(SectionAndSeries, AJpegIsSmallerAtALowerQuality) {
+  section(folder_ / "a.jpg", {"--quality", "30"});
+  section(folder_ / "b.jpg", {"--quality", "95"});
+  EXPECT_LT(fs::file_size(folder_ / "a.jpg"), fs::file_size(folder_ / "b.jpg"));
+  EXPECT_THROW(section(folder_ / "c.jpg", {"--quality", "0"}), InvalidRequest);
+}
+
+TEST_F(SectionAndSeries, TheSidecarSaysWhereThePixelsAre) {
+  section(folder_ / "a.png", {"--json", "--pixel", "5"});
+  const nlohmann::json sidecar = json_in(folder_ / "a.json");
+  EXPECT_EQ(sidecar.at("sample").at("name"), "sample");
+  EXPECT_EQ(sidecar.at("pixel_um"), 5.0);
+  EXPECT_EQ(sidecar.at("pixel_to_sample"), nlohmann::json::parse("[[5,0,0],[0,5,0],[0,0,40]]"));
+  EXPECT_EQ(sidecar.at("sample_to_pixel"),
+            nlohmann::json::parse("[[0.2,0,0,0],[0,0.2,0,0],[0,0,1,-40]]"));
+  EXPECT_EQ(sidecar.at("parameters").at("through"), "0,0,40");
+  EXPECT_EQ(sidecar.at("parameters").at("pixel"), "5");
+
+  const auto bytes = read_file(folder_ / "a.png");
+  const std::string picture(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_THAT(picture, HasSubstr(sidecar.at("sample_to_pixel").dump()));
+}
+
+TEST_F(SectionAndSeries, NoSidecarIsWrittenUnlessAskedFor) {
+  section(folder_ / "a.png");
+  EXPECT_FALSE(fs::exists(folder_ / "a.json"));
+}
+
+TEST_F(SectionAndSeries, AFullDiskLeavesTheOldPicture) {
+  const fs::path path = folder_ / "a.png";
+  section(path);
+  const auto before = read_file(path);
+  {
+    const tests::FullDisk full(500);
+    EXPECT_THROW(section(path, {"--pixel", "1"}), SampleError);
+  }
+  EXPECT_EQ(read_file(path), before);
+}
+
+TEST_F(SectionAndSeries, ASeriesSaysWhatItIs) {
+  rotation(folder_ / "turning");
+  const nlohmann::json series = json_in(folder_ / "turning/series.json");
+  EXPECT_EQ(series.at("sample").at("name"), "sample");
+  EXPECT_EQ(series.at("sample").at("layers_in_volume"), 6);
+  EXPECT_EQ(series.at("parameters").at("command"), "rotate");
+  EXPECT_EQ(series.at("unit"), "deg");
+  ASSERT_EQ(series.at("frames").size(), 5U);
+  EXPECT_EQ(series.at("frames")[1].at("value"), 10.0);
+  EXPECT_EQ(series.at("frames")[1].at("file"), "001_+010.0deg.png");
+  EXPECT_EQ(names_in(folder_ / "turning").size(), 6U);
+}
+
+TEST_F(SectionAndSeries, ASeriesIsTakenUpWhereItWasLeft) {
+  const fs::path turning = folder_ / "turning";
+  rotation(turning);
+  const auto kept_since = fs::last_write_time(turning / "000_+000.0deg.png");
+  const auto whole = read_file(turning / "003_+030.0deg.png");
+  fs::remove(turning / "003_+030.0deg.png");
+  reconstruct::truncate_file(turning / "004_+040.0deg.png", 0.5);
+  rotation(turning, {"--movie", folder_ / "turning.mp4", "--rate", "10"});
+  EXPECT_EQ(fs::last_write_time(turning / "000_+000.0deg.png"), kept_since);
+  EXPECT_EQ(read_file(turning / "003_+030.0deg.png"), whole);
+  EXPECT_NO_THROW(read_image_file(turning / "004_+040.0deg.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "turning.mp4"));
+}
+
+TEST_F(SectionAndSeries, AFolderOfAnotherSeriesIsRefused) {
+  rotation(folder_ / "turning");
+  EXPECT_THAT(message_of<SampleError>([&] {
+                rotation(folder_ / "turning", {"--interpolation", "nearest"});
+              }),
+              HasSubstr("another series"));
+}
+
+TEST_F(SectionAndSeries, ASignalEndsASeriesBetweenTwoFramesAndItGoesOn) {
+  const fs::path turning = folder_ / "turning";
+  const auto ask = [](int) { std::raise(SIGINT); };
+  // Comes once, after a tenth of a second of work.
+  std::signal(SIGPROF, ask);
+  const itimerval soon{{0, 0}, {0, 100'000}};
+  setitimer(ITIMER_PROF, &soon, nullptr);
+  const std::string message = message_of<SampleError>([&] {
+    run({"series", sample_, "rotate", "--axis", "x", "--to", "180", "--step", "0.05", "-o",
+         turning});
+  });
+  std::signal(SIGPROF, SIG_DFL);
+  EXPECT_THAT(message, HasSubstr("interrupted after "));
+  EXPECT_THAT(message, HasSubstr("same command"));
+  for (const std::string& name : names_in(turning)) {
+    if (name != "series.json") {
+      EXPECT_NO_THROW(read_image_file(turning / name)) << name;
+    }
+  }
+}
+
+TEST_F(SectionAndSeries, FramesSayWhereTheirPixelsAre) {
+  rotation(folder_ / "turning");
+  const fs::path path = folder_ / "turning/000_+000.0deg.png";
+  const auto bytes = read_file(path);
+  const std::string picture(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string key = "\"sample_to_pixel\":";
+  const std::size_t begin = picture.find(key);
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t end = picture.find("]]", begin);
+  const auto matrix =
+      nlohmann::json::parse(picture.substr(begin + key.size(), end + 2 - begin - key.size()));
+  const cv::Mat frame = read_image_file(path);
+  // At 0 degrees the plane lies in the middle, z = 50 um: half-way between two layers.
+  const int u = static_cast<int>(
+      std::lround(matrix[0][0].get<double>() * 120.0 + matrix[0][3].get<double>()));
+  const int v =
+      static_cast<int>(std::lround(matrix[1][1].get<double>() * 70.0 + matrix[1][3].get<double>()));
+  const cv::Vec3b above = reconstruct::test_image(40, 30, CV_8UC3, 2).at<cv::Vec3b>(7, 12);
+  const cv::Vec3b below = reconstruct::test_image(40, 30, CV_8UC3, 3).at<cv::Vec3b>(7, 12);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(frame.at<cv::Vec3b>(v, u)[c], (above[c] + below[c]) / 2.0, 0.5);
+  }
+}
+
+TEST_F(SectionAndSeries, FramesComeInTheFormatAskedFor) {
+  rotation(folder_ / "a", {"--format", "tif"});
+  rotation(folder_ / "b", {"--format", "jpg", "--movie", folder_ / "b.mp4"});
+  EXPECT_TRUE(fs::exists(folder_ / "a/004_+040.0deg.tif"));
+  EXPECT_TRUE(fs::exists(folder_ / "b/004_+040.0deg.jpg"));
+  EXPECT_THROW(rotation(folder_ / "c", {"--format", "bmp"}), InvalidRequest);
+  EXPECT_FALSE(fs::exists(folder_ / "c"));
+}
+
+}  // namespace
+}  // namespace biotomy::tools
