@@ -1,7 +1,6 @@
 #include "reconstruct/store/pyramid_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "reconstruct/store/level_mean.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/shard.hpp"
+#include "reconstruct/store/shard_layers.hpp"
 #include "reconstruct/store/stored_shard.hpp"
 #include "reconstruct/store/write_behind.hpp"
 
@@ -120,38 +120,6 @@ class ShardEncoder {
   const std::optional<StoredShard>& before_;
 };
 
-/// Layer `z` of a shard, the upper left part of `size`; black when it is not stored.
-cv::Mat layer_of_shard(const std::optional<StoredShard>& shard, const ZarrArray& array, int z,
-                       cv::Size size) {
-  const int type = array.bits == 8 ? CV_8UC3 : CV_16UC3;
-  cv::Mat layer(size, type, cv::Scalar::all(0));
-  if (!shard) {
-    return layer;
-  }
-  const auto& chunk = array.layout.chunk;
-  const BlockCount count = chunks_of_shard(array.layout);
-  const ChunkCodec codec(array.layout, array.bits);
-  const auto chunks_of_layer = static_cast<std::size_t>(count.x * count.y);
-  tbb::parallel_for(std::size_t{0}, chunks_of_layer, [&](std::size_t place) {
-    const cv::Rect face(cv::Point(static_cast<int>(place % static_cast<std::size_t>(count.x)),
-                                  static_cast<int>(place / static_cast<std::size_t>(count.x))),
-                        cv::Size(chunk[2], chunk[1]));
-    const cv::Rect inside = cv::Rect(cv::Point(face.x * chunk[2], face.y * chunk[1]), face.size()) &
-                            cv::Rect(cv::Point(0, 0), size);
-    const std::size_t number = static_cast<std::size_t>(z / chunk[0]) * chunks_of_layer + place;
-    if (inside.empty() || shard->encoded(number).empty()) {
-      return;
-    }
-    Bytes voxels(codec.chunk_bytes());
-    shard->decode(number, codec, voxels);
-    std::byte* plane = voxels.data() + voxels.size() / static_cast<std::size_t>(chunk[0]) *
-                                           static_cast<std::size_t>(z % chunk[0]);
-    cv::Mat(face.size(), type, plane)(cv::Rect(cv::Point(0, 0), inside.size()))
-        .copyTo(layer(inside));
-  });
-  return layer;
-}
-
 }  // namespace
 
 std::vector<ZarrArray> level_arrays(const ZarrArray& finest,
@@ -255,9 +223,10 @@ class PyramidWriter::BandOfLevels {
     if (axes.z && first % 2 != 0) {
       const ZarrArray& array = writer_.arrays_[level];
       const std::int64_t depth = array.layout.shard[0];
-      layers.insert(layers.begin(),
-                    layer_of_shard(stored_shard(level, (first - 1) / depth, y, x), array,
-                                   static_cast<int>((first - 1) % depth), layers.front().size()));
+      const std::vector<cv::Mat> last =
+          shard_layers(stored_shard(level, (first - 1) / depth, y, x), array,
+                       static_cast<int>((first - 1) % depth), 1, layers.front().size());
+      layers.insert(layers.begin(), last.front());
     }
     return layers;
   }
