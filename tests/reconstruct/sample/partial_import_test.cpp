@@ -116,6 +116,17 @@ TEST_F(APartialImport, TellsInWhatAnotherRequestDiffersAndOffersToBeginAnew) {
   EXPECT_EQ(take(true).stored_layers(), 0);
 }
 
+TEST_F(APartialImport, RemovesFilesThatWereNotFinishedWhenItWasKilled) {
+  take().add_stored(1, kHash);
+  const auto sample = folder_ / "out" / ".knee.partial" / "sample";
+  std::filesystem::create_directories(sample / "volume.ome.zarr" / "0" / "c");
+  write_text(sample / "layers" / ".000002.tif.12-3", "half");
+  write_text(sample / "volume.ome.zarr" / "0" / "c" / ".0.12-4", "half");
+  take();
+  EXPECT_TRUE(names_in(sample / "layers").empty());
+  EXPECT_TRUE(names_in(sample / "volume.ome.zarr" / "0" / "c").empty());
+}
+
 TEST_F(APartialImport, DoesNotMindAnotherTimeOfBeginning) {
   take().add_stored(1, kHash);
   request_.created = "2026-01-02T03:04:05Z";
