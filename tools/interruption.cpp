@@ -1,39 +1,41 @@
 #include "tools/interruption.hpp"
 
+#include <atomic>
 #include <cstddef>
 
 namespace biotomy::tools {
 namespace {
 
-constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
+constexpr std::array kSignals{SIGINT, SIGTERM};
 
-volatile std::sig_atomic_t was_asked = 0;
+std::atomic<bool> signalled{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler must not touch it
 
-extern "C" void ask_for_an_end(int /*signal*/) {
-  was_asked = 1;
+void remember(int /*signal*/) {
+  signalled = true;
 }
 
 }  // namespace
 
 Interruption::Interruption() {
-  was_asked = 0;
+  signalled = false;
   struct sigaction action {};
-  action.sa_handler = ask_for_an_end;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = remember;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    sigaction(kSignals[i], &action, &before_[i]);
+    ::sigaction(kSignals[i], &action, &before_[i]);
   }
 }
 
 Interruption::~Interruption() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    sigaction(kSignals[i], &before_[i], nullptr);
+    ::sigaction(kSignals[i], &before_[i], nullptr);
   }
 }
 
-bool Interruption::asked() const {
-  return was_asked != 0;
+bool Interruption::requested() {
+  return signalled;
 }
 
 }  // namespace biotomy::tools

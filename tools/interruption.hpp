@@ -5,8 +5,9 @@
 
 namespace biotomy::tools {
 
-/// While one is alive, the first SIGINT or SIGTERM only asks for an end between two pieces of work;
-/// a second one ends the process as always. One at a time.
+/// While it lives, the first SIGINT and the first SIGTERM are remembered instead of ending the
+/// program, so that work can be left in order; a second one of the kind ends it at once. One at a
+/// time.
 class Interruption {
  public:
   Interruption();
@@ -14,7 +15,8 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  bool asked() const;
+  /// Whether a signal came. Any thread may ask.
+  static bool requested();
 
  private:
   std::array<struct sigaction, 2> before_{};

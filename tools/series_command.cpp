@@ -203,7 +203,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   const int stored_type = arguments.format == "jpg" ? CV_8UC3 : frames.frame_type();
   ProgressBar progress("Cutting", "frames");
   for (std::size_t i = 0; i < frames.count(); ++i) {
-    if (interruption.asked()) {
+    if (Interruption::requested()) {
       throw SampleError(arguments.output + ": interrupted after " + std::to_string(i) + " of " +
                         std::to_string(frames.count()) +
                         " frames; the same command again takes the series up");

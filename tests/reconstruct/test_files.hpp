@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,36 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
+
+/// Every file below a folder, by its relative path.
+inline std::map<std::string, std::vector<std::byte>> contents_of(
+    const std::filesystem::path& folder) {
+  std::map<std::string, std::vector<std::byte>> contents;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      contents[entry.path().lexically_relative(folder).string()] = read_file(entry.path());
+    }
+  }
+  return contents;
+}
+
+/// The names of the files that two contents do not have in common, or not alike.
+inline std::vector<std::string> differing_files(
+    const std::map<std::string, std::vector<std::byte>>& a,
+    const std::map<std::string, std::vector<std::byte>>& b) {
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : a) {
+    if (const auto found = b.find(name); found == b.end() || found->second != bytes) {
+      names.push_back(name);
+    }
+  }
+  for (const auto& [name, bytes] : b) {
+    if (a.find(name) == a.end()) {
+      names.push_back(name);
+    }
   }
   return names;
 }

@@ -7,23 +7,16 @@
 namespace biotomy::tools {
 namespace {
 
-TEST(Interruption, IsAskedForByTheFirstSignal) {
+TEST(InterruptionOfWork, IsRequestedByEitherSignalAndForgottenByTheNextOne) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Interruption interruption;
-    EXPECT_FALSE(interruption.asked());
+    EXPECT_FALSE(Interruption::requested());
     std::raise(signal);
-    EXPECT_TRUE(interruption.asked());
+    EXPECT_TRUE(Interruption::requested());
   }
 }
 
-TEST(Interruption, LeavesSignalsAsTheyWere) {
-  { const Interruption interruption; }
-  struct sigaction now {};
-  sigaction(SIGINT, nullptr, &now);
-  EXPECT_EQ(now.sa_handler, SIG_DFL);
-}
-
-TEST(InterruptionDeathTest, EndsTheProcessTheSecondTime) {
+TEST(InterruptionOfWork, LetsASecondSignalEndTheProgram) {
   EXPECT_EXIT(
       {
         const Interruption interruption;
