@@ -99,7 +99,8 @@ TiffFile TiffFile::open(const std::filesystem::path& path) {
   const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, file.report_.get());
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_message, nullptr);
-  file.tiff_.reset(TIFFOpenExt(path.c_str(), "r", options.get()));
+  // Read, not mapped ('m'): a page that the disk cannot give is then an error and not a SIGBUS.
+  file.tiff_.reset(TIFFOpenExt(path.c_str(), "rm", options.get()));
   if (!file.tiff_) {
     file.fail("cannot be opened as a TIFF");
   }

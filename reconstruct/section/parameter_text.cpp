@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kMostColour = 255.0;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& text,
                          const std::string& wanted) {
-  throw InvalidRequest(name + " '" + text + "': give " + wanted);
+  throw InvalidRequest(name + " '" + excerpt(text) + "': give " + wanted);
 }
 
 std::string_view without_blanks(std::string_view text) {
