@@ -199,5 +199,16 @@ TEST_F(LayerImage, RefusesTilesAndImagesThatNoMemoryHolds) {
               HasSubstr("size makes no sense"));
 }
 
+TEST_F(LayerImage, AChangedByteOfATileIsNoticed) {
+  write_layer_image(path_, image_, kPosition, {});
+  const auto whole = read_file(path_);
+  // The tiles come first, right after the header of 8 bytes.
+  for (std::size_t place = 8; place < whole.size() / 2; place += whole.size() / 40) {
+    flip_byte(path_, place);
+    EXPECT_THROW(read_layer_image(path_), SampleError) << place;
+    write_file(path_, whole);
+  }
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct
