@@ -11,6 +11,8 @@ void add_import_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_section_command(CLI::App& app);
 void add_series_command(CLI::App& app);
+void add_verify_command(CLI::App& app);
+void add_rebuild_command(CLI::App& app);
 void add_rig_command(CLI::App& app);
 
 }  // namespace biotomy::tools

@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
   biotomy::tools::add_info_command(app);
   biotomy::tools::add_section_command(app);
   biotomy::tools::add_series_command(app);
+  biotomy::tools::add_verify_command(app);
+  biotomy::tools::add_rebuild_command(app);
   biotomy::tools::add_rig_command(app);
   try {
     app.parse(argc, argv);

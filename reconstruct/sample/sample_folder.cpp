@@ -201,6 +201,9 @@ fs::path SampleFolder::volume_path() const {
 fs::path SampleFolder::journal_path() const {
   return path_ / "journal.sqlite";
 }
+fs::path SampleFolder::hashes_path() const {
+  return path_ / "layers.sha256";
+}
 fs::path SampleFolder::rejected_path() const {
   return path_ / kRejectedName;
 }

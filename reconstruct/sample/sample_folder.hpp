@@ -34,6 +34,8 @@ class SampleFolder {
   std::filesystem::path layer_path(std::int64_t layer) const;
   std::filesystem::path volume_path() const;
   std::filesystem::path journal_path() const;
+  /// The hashes of an imported sample's layers, `layers.sha256`.
+  std::filesystem::path hashes_path() const;
   std::filesystem::path rejected_path() const;
 
  private:

@@ -166,6 +166,19 @@ std::string write_durably_verified(const fs::path& path, std::span<const std::by
   return expected;
 }
 
+void create_folders_durably(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) {
+    return;
+  }
+  create_folders_durably(folder_of(folder));
+  fs::create_directory(folder, error);
+  if (error) {
+    throw SampleError(folder.string() + ": cannot create this folder: " + error.message());
+  }
+  sync_folder(folder_of(folder));
+}
+
 void sync_folder(const fs::path& folder) {
   const FileDescriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor.is_open() || ::fsync(descriptor.get()) != 0) {

@@ -18,6 +18,10 @@ void write_durably(const std::filesystem::path& path, const std::string& text);
 std::string write_durably_verified(const std::filesystem::path& path,
                                    std::span<const std::byte> bytes);
 
+/// Makes a folder and those above it, so that they are still there after a crash. Several threads
+/// may make the same one. Throws SampleError.
+void create_folders_durably(const std::filesystem::path& folder);
+
 /// fsyncs a folder: what was created or renamed in it stays.
 void sync_folder(const std::filesystem::path& folder);
 

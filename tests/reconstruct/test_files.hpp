@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,18 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
     names.push_back(entry.path().filename().string());
   }
   return names;
+}
+
+/// Every file below a folder, by its relative path.
+inline std::map<std::string, std::vector<std::byte>> contents_of(
+    const std::filesystem::path& folder) {
+  std::map<std::string, std::vector<std::byte>> contents;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      contents[entry.path().lexically_relative(folder).string()] = read_file(entry.path());
+    }
+  }
+  return contents;
 }
 
 /// What an action throws of a kind, or nothing.

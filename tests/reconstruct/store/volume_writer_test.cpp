@@ -1,14 +1,15 @@
 #include "reconstruct/store/volume_writer.hpp"
 
-#include <cstring>
 #include <tuple>
 
 #include <gmock/gmock.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/volume.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
+#include "tests/reconstruct/volume_levels.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::reconstruct {
@@ -24,26 +25,8 @@ VolumeLayout small_layout() {
   return layout;
 }
 
-/// One layer put together from the volume's chunks; fill value where there is none.
 cv::Mat layer_of(const Volume& volume, std::int64_t layer) {
-  const auto& chunk = volume.layout().chunk;
-  const GridSize& size = volume.cuboid().size;
-  const int type = volume.bits() == 8 ? CV_8UC3 : CV_16UC3;
-  const int z = static_cast<int>(layer - 1);
-  cv::Mat padded(static_cast<int>(size.y) + chunk[1], static_cast<int>(size.x) + chunk[2], type,
-                 cv::Scalar::all(0));
-  for (int y = 0; y < size.y; y += chunk[1]) {
-    for (int x = 0; x < size.x; x += chunk[2]) {
-      const auto voxels = volume.read_chunk(0, {z / chunk[0], y / chunk[1], x / chunk[2]});
-      if (voxels) {
-        const std::size_t plane = voxels->size() / static_cast<std::size_t>(chunk[0]);
-        auto* data =
-            const_cast<std::byte*>(voxels->data()) + plane * static_cast<std::size_t>(z % chunk[0]);
-        cv::Mat(chunk[1], chunk[2], type, data).copyTo(padded(cv::Rect(x, y, chunk[2], chunk[1])));
-      }
-    }
-  }
-  return padded(cv::Rect(0, 0, static_cast<int>(size.x), static_cast<int>(size.y))).clone();
+  return stored_level(volume, 0).at(static_cast<std::size_t>(layer - 1));
 }
 
 cv::Mat expected_layer(const GridSize& size, int bits, std::int64_t layer) {
@@ -151,6 +134,36 @@ TEST_F(Writer, RefusesAStoreOfAnotherSample) {
                         std::filesystem::copy_options::recursive);
   EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(other, small_layout()); }),
               HasSubstr("does not fit"));
+}
+
+TEST_F(Writer, RefusesAStoreWithoutItsLevelsAndTellsHowToMendIt) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  const auto group = sample_.volume_path() / "zarr.json";
+  const auto text = read_file(group);
+  VolumeMetadata metadata = parse_group_metadata(
+      {reinterpret_cast<const char*>(text.data()), text.size()}, group.string());
+  metadata.levels.resize(1);
+  write_text(group, group_metadata(metadata));
+  EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(sample_, small_layout()); }),
+              HasSubstr("biotomy rebuild " + sample_.path().string()));
+}
+
+TEST_F(Writer, RefusesShardsOfAnOddWidthThatCannotBeHalvedOneByOne) {
+  VolumeLayout odd = small_layout();
+  odd.chunk = {4, 5, 5};
+  odd.shard = {4, 10, 15};
+  EXPECT_THAT(message_of<InvalidRequest>([&] { VolumeWriter(sample_, odd); }),
+              testing::AllOf(HasSubstr("15,10,4"), HasSubstr("even")));
+  EXPECT_FALSE(std::filesystem::exists(sample_.volume_path()));
+  odd.shard = {4, 50, 55};  // one shard holds a layer
+  EXPECT_NO_THROW(VolumeWriter(sample_, odd).append(8, false));
+}
+
+TEST_F(Writer, MakesTheArraysOfAllLevelsWithTheStore) {
+  VolumeWriter(sample_, small_layout());
+  const Volume volume = Volume::open(sample_.volume_path());
+  EXPECT_GT(volume.levels(), 2);
+  EXPECT_EQ(volume.read_chunk(volume.levels() - 1, {0, 0, 0}), nullptr);
 }
 
 TEST_F(Writer, StoresNoShardThatIsAllFillValue) {

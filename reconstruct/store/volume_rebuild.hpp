@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "reconstruct/interruption.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
+
+namespace biotomy::reconstruct {
+
+/// Makes a sample's volume anew from its layer files, with the layout of the volume that is there
+/// (or the default, where there is none that can be understood): byte for byte what appending the
+/// layers one band after the other makes. It grows in `.volume.ome.zarr.partial` and takes the
+/// volume's place when it is complete; until then, and when something goes wrong, the old volume
+/// stays. All layers that there are go into it, also those of an incomplete band.
+/// No other writer may be at work on the sample.
+/// `progress(done, total)` is called after each band. Returns the number of layers. Throws
+/// SampleError when there is no layer, or one is missing between others or cannot be read.
+std::int64_t rebuild_volume(const SampleFolder& sample,
+                            const std::function<void(std::int64_t, std::int64_t)>& progress = {},
+                            const StopRequested& stop = {});
+
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,134 @@
+#include "reconstruct/store/volume_rebuild.hpp"
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/ome_metadata.hpp"
+#include "reconstruct/store/volume.hpp"
+#include "reconstruct/store/volume_writer.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/reconstruct/volume_levels.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+class VolumeRebuild : public testing::Test {
+ protected:
+  VolumeRebuild() {
+    layout_.chunk = {2, 8, 16};
+    layout_.shard = {4, 16, 32};
+    layout_.codec = "zstd1";
+  }
+  auto volume_contents() const { return contents_of(sample_.volume_path()); }
+  auto names() const { return names_in(sample_.path()); }
+
+  tests::TemporaryFolder folder_;
+  VolumeLayout layout_;
+  SampleFolder sample_ = sample_with_layers(folder_ / "s", {70, 45, 15}, 8, 13);
+};
+
+TEST_F(VolumeRebuild, GivesByteForByteWhatWasAppendedBandByBand) {
+  VolumeWriter writer(sample_, layout_);
+  for (const int available : {5, 8, 12, 13}) {
+    writer.append(available, available == 13);
+  }
+  const auto appended = volume_contents();
+  std::vector<std::int64_t> progress;
+  EXPECT_EQ(rebuild_volume(sample_,
+                           [&](std::int64_t done, std::int64_t total) {
+                             progress.push_back(done);
+                             EXPECT_EQ(total, 13);
+                           }),
+            13);
+  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(progress, testing::ElementsAre(4, 8, 12, 13));
+  EXPECT_THAT(names(),
+              UnorderedElementsAre("sample.toml", "layers", "rejected", "volume.ome.zarr"));
+}
+
+TEST_F(VolumeRebuild, MendsAVolumeThatIsDamagedAndKeepsItsLayout) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto appended = volume_contents();
+  write_text(sample_.volume_path() / "zarr.json", "{}");
+  std::filesystem::remove_all(sample_.volume_path() / "1");
+  rebuild_volume(sample_);
+  EXPECT_EQ(volume_contents(), appended);
+}
+
+TEST_F(VolumeRebuild, GivesAStoreOfOneLevelItsLevels) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto appended = volume_contents();
+  VolumeMetadata metadata;
+  metadata.name = "test";
+  metadata.spacing = sample_.description().cuboid.spacing;
+  metadata.layers_present = 13;
+  write_text(sample_.volume_path() / "zarr.json", group_metadata(metadata));
+  ASSERT_EQ(Volume::open(sample_.volume_path()).levels(), 1);
+  rebuild_volume(sample_);
+  EXPECT_EQ(volume_contents(), appended);
+}
+
+TEST_F(VolumeRebuild, MakesAVolumeWhereThereIsNone) {
+  rebuild_volume(sample_);
+  const Volume volume = Volume::open(sample_.volume_path());
+  EXPECT_EQ(volume.layers_present(), 13);
+  EXPECT_EQ(volume.layout(), VolumeLayout{});
+}
+
+TEST_F(VolumeRebuild, RefusesWhenALayerIsMissingInTheMiddleOrAllAre) {
+  std::filesystem::remove(sample_.layer_path(6));
+  EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }), HasSubstr("000006.tif"));
+  for (std::int64_t layer = 1; layer <= 13; ++layer) {
+    std::filesystem::remove(sample_.layer_path(layer));
+  }
+  EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }), HasSubstr("no layers"));
+  EXPECT_THAT(names(), UnorderedElementsAre("sample.toml", "layers", "rejected"));
+}
+
+TEST_F(VolumeRebuild, LeavesTheOldVolumeWhenALayerIsDamaged) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto appended = volume_contents();
+  truncate_file(sample_.layer_path(11), 0.5);
+  EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }), HasSubstr("000011.tif"));
+  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(names(),
+              UnorderedElementsAre("sample.toml", "layers", "rejected", "volume.ome.zarr"));
+}
+
+TEST_F(VolumeRebuild, StopsWhenAskedAndLeavesTheOldVolume) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto appended = volume_contents();
+  int questions = 0;
+  EXPECT_THROW(rebuild_volume(sample_, {}, [&] { return ++questions == 20; }), Interrupted);
+  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(names(),
+              UnorderedElementsAre("sample.toml", "layers", "rejected", "volume.ome.zarr"));
+}
+
+TEST_F(VolumeRebuild, BeginsAnewAfterOneThatWasKilled) {
+  const auto left = sample_.path() / ".volume.ome.zarr.partial";
+  VolumeWriter(sample_, layout_, left).append(8, false);
+  write_text(left / "zarr.json", "half");
+  rebuild_volume(sample_);
+  EXPECT_EQ(Volume::open(sample_.volume_path()).layers_present(), 13);
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
+TEST_F(VolumeRebuild, IsReadOnByThoseWhoHadTheOldVolumeOpen) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const Volume volume = Volume::open(sample_.volume_path());
+  const auto before = stored_level(volume, 1);
+  rebuild_volume(sample_);
+  const auto after = stored_level(volume, 1);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_TRUE(same_pixels(before[k], after[k])) << k;
+  }
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

@@ -1,0 +1,155 @@
+#include "reconstruct/store/volume_verification.hpp"
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/store/ome_metadata.hpp"
+#include "reconstruct/store/shard.hpp"
+#include "reconstruct/store/stored_shard.hpp"
+#include "reconstruct/store/volume_writer.hpp"
+#include "tests/reconstruct/findings.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class VolumeVerification : public testing::Test {
+ protected:
+  VolumeVerification() {
+    layout_.chunk = {2, 8, 16};
+    layout_.shard = {6, 16, 32};
+    layout_.codec = "zstd1";
+    VolumeWriter(sample_, layout_).append(15, true);
+  }
+  std::vector<std::string> findings(bool deep = false) {
+    HeardFindings heard(sample_.volume_path());
+    shards_ = verify_volume(sample_, deep, heard.listener());
+    EXPECT_EQ(heard.done, heard.total);
+    return heard.findings;
+  }
+  std::filesystem::path in_volume(const std::string& name) const {
+    return sample_.volume_path() / name;
+  }
+  /// Stores the shard anew with one chunk of which one voxel is another.
+  void change_a_voxel(const std::string& name) const {
+    const BlockCount count = chunks_of_shard(layout_);
+    const auto shard = StoredShard::read(in_volume(name), count);
+    const ChunkCodec codec(layout_, 8);
+    std::vector<std::vector<std::byte>> chunks;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count.total()); ++i) {
+      chunks.emplace_back(shard->encoded(i).begin(), shard->encoded(i).end());
+    }
+    std::vector<std::byte> voxels(codec.chunk_bytes());
+    shard->decode(0, codec, voxels);
+    voxels[3] ^= std::byte{1};
+    chunks[0] = codec.encode(voxels);
+    write_file(in_volume(name), encode_shard(chunks));
+  }
+
+  tests::TemporaryFolder folder_;
+  VolumeLayout layout_;
+  SampleFolder sample_ = sample_with_layers(folder_ / "s", {70, 45, 15}, 8, 15);
+  std::int64_t shards_ = 0;
+};
+
+TEST_F(VolumeVerification, FindsNothingInAVolumeThatIsWell) {
+  EXPECT_THAT(findings(), IsEmpty());
+  EXPECT_GT(shards_, 27);  // level 0 alone has as many
+  EXPECT_THAT(findings(true), IsEmpty());
+}
+
+TEST_F(VolumeVerification, FindsNothingInAVolumeThatStillGrows) {
+  const auto growing = sample_with_layers(folder_ / "g", {70, 45, 40}, 8, 15);
+  VolumeWriter(growing, layout_).append(15, false);
+  HeardFindings heard(growing.path());
+  verify_volume(growing, true, heard.listener());
+  EXPECT_THAT(heard.findings, IsEmpty());
+}
+
+TEST_F(VolumeVerification, FindsADamagedChunkOnceAndNamesIt) {
+  flip_byte(in_volume("1/c/0/0/0/0"), 5);
+  for (const bool deep : {false, true}) {
+    EXPECT_THAT(findings(deep),
+                ElementsAre(AllOf(StartsWith("1/c/0/0/0/0: its chunk z 0, y 0, x 0"),
+                                  HasSubstr("checksum"))));
+  }
+}
+
+TEST_F(VolumeVerification, FindsATruncatedShardAndADamagedIndex) {
+  std::filesystem::resize_file(in_volume("0/c/0/1/0/0"), 9);
+  const auto other = in_volume("0/c/0/2/0/0");
+  flip_byte(other, std::filesystem::file_size(other) - 3);
+  EXPECT_THAT(findings(), testing::UnorderedElementsAre(
+                              AllOf(StartsWith("0/c/0/1/0/0: "), HasSubstr("truncated")),
+                              AllOf(StartsWith("0/c/0/2/0/0: "), HasSubstr("index"))));
+}
+
+TEST_F(VolumeVerification, FindsAFileThatDoesNotBelongThere) {
+  write_text(in_volume("0/c/0/0/0/99"), "x");
+  write_text(in_volume("0/c/0/0/0/01"), "x");
+  write_text(in_volume("0/notes"), "x");
+  write_text(in_volume("0/c/0/0/0/.0.1-2"), "half");  // never finished: nothing wrong
+  EXPECT_THAT(findings(),
+              testing::UnorderedElementsAre("0/c/0/0/0/99: does not belong to the volume",
+                                            "0/c/0/0/0/01: does not belong to the volume",
+                                            "0/notes: does not belong to the volume"));
+}
+
+TEST_F(VolumeVerification, FindsMetadataThatIsDamagedOrContradictsTheSample) {
+  write_text(in_volume("2/zarr.json"), "{}");
+  EXPECT_THAT(findings(), ElementsAre(StartsWith("2/zarr.json: ")));
+  std::filesystem::copy_file(in_volume("0/zarr.json"), in_volume("2/zarr.json"),
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THAT(findings(), ElementsAre(AllOf(StartsWith("2/zarr.json: "), HasSubstr("fit"))));
+  VolumeMetadata metadata;
+  metadata.name = "another";
+  metadata.spacing = sample_.description().cuboid.spacing;
+  metadata.layers_present = 15;
+  write_text(in_volume("zarr.json"), group_metadata(metadata));
+  EXPECT_THAT(findings(), ElementsAre(AllOf(StartsWith("zarr.json: "), HasSubstr("description")),
+                                      AllOf(StartsWith("zarr.json: "), HasSubstr("levels"))));
+}
+
+TEST_F(VolumeVerification, FindsThatLayersAreNotInTheVolume) {
+  const auto unfinished = sample_with_layers(folder_ / "u", {20, 10, 15}, 8, 15);
+  VolumeWriter(unfinished, layout_).append(12, false);
+  HeardFindings heard(unfinished.path());
+  verify_volume(unfinished, false, heard.listener());
+  EXPECT_THAT(heard.findings, ElementsAre(AllOf(StartsWith("volume.ome.zarr: "),
+                                                HasSubstr("12 layers"), HasSubstr("15 layer"))));
+}
+
+TEST_F(VolumeVerification, FindsThatThereIsNoVolume) {
+  std::filesystem::remove_all(sample_.volume_path());
+  EXPECT_THAT(findings(), ElementsAre(HasSubstr("rebuild")));
+}
+
+TEST_F(VolumeVerification, FindsOnlyWhenDeepAVoxelThatIsNotTheLayersOrNotTheMean) {
+  change_a_voxel("0/c/0/1/0/0");
+  EXPECT_THAT(findings(), IsEmpty());
+  EXPECT_THAT(findings(true),
+              testing::Contains(AllOf(StartsWith("0/c/0/1/0/0: "), HasSubstr("layer files"),
+                                      HasSubstr("x 1, y 0, z 0"))));
+  VolumeWriter(sample_, layout_, folder_ / "again").append(15, true);
+  std::filesystem::remove_all(sample_.volume_path());
+  std::filesystem::rename(folder_ / "again", sample_.volume_path());
+  change_a_voxel("1/c/0/0/0/0");
+  EXPECT_THAT(findings(true),
+              testing::Contains(AllOf(StartsWith("1/c/0/0/0/0: "), HasSubstr("mean of level 0"))));
+}
+
+TEST_F(VolumeVerification, FindsWhenDeepAShardThatIsLost) {
+  std::filesystem::remove(in_volume("0/c/0/0/0/1"));
+  EXPECT_THAT(findings(), IsEmpty());
+  EXPECT_THAT(findings(true), testing::Contains(StartsWith("0/c/0/0/0/1: ")));
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct

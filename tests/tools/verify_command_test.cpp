@@ -1,0 +1,95 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "acquisition/records/layer_journal.hpp"
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/layer_hashes.hpp"
+#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/volume_writer.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tools/command.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+using testing::HasSubstr;
+
+class VerifyCommand : public testing::Test {
+ protected:
+  VerifyCommand() { reconstruct::VolumeWriter(sample_, {}).append(3, true); }
+
+  void record_hashes() const {
+    std::vector<reconstruct::LayerHash> hashes;
+    for (std::int64_t layer = 1; layer <= 3; ++layer) {
+      const auto path = sample_.layer_path(layer);
+      hashes.push_back({"layers/" + path.filename().string(), reconstruct::sha256_of_file(path)});
+    }
+    reconstruct::write_text(sample_.hashes_path(), reconstruct::layer_hash_lines(hashes));
+  }
+  /// What was printed, and the message of the failure, if any.
+  std::string run(std::vector<std::string> options = {}) const {
+    CLI::App app;
+    add_verify_command(app);
+    options.insert(options.end(), {sample_.path().string(), "verify"});
+    testing::internal::CaptureStdout();
+    std::string failure;
+    try {
+      app.parse(options);  // the last first, as CLI11 wants them
+    } catch (const reconstruct::SampleError& error) {
+      failure = error.what();
+    }
+    return testing::internal::GetCapturedStdout() + failure;
+  }
+
+  tests::TemporaryFolder folder_;
+  reconstruct::SampleFolder sample_ =
+      reconstruct::sample_with_layers(folder_ / "s", {20, 10, 3}, 8, 3);
+};
+
+TEST_F(VerifyCommand, SaysThatNothingIsWrong) {
+  record_hashes();
+  EXPECT_EQ(run(), "verified: layer files 3, shards of the volume 1; nothing is wrong\n");
+  EXPECT_THAT(run({"--deep"}),
+              testing::AllOf(HasSubstr("voxel for voxel"), HasSubstr("nothing is wrong")));
+}
+
+TEST_F(VerifyCommand, NamesTheFileThatIsWrongAndFails) {
+  record_hashes();
+  reconstruct::flip_byte(sample_.layer_path(2), 50);
+  const std::string said = run();
+  EXPECT_THAT(said, HasSubstr("000002.tif: is not what was stored"));
+  EXPECT_THAT(said, HasSubstr("1 thing is wrong"));
+}
+
+TEST_F(VerifyCommand, TakesTheRecordsOfAJobFromItsJournal) {
+  {
+    acquisition::LayerJournal journal(sample_.journal_path());
+    acquisition::AttemptRow row;
+    row.layer = 1;
+    row.attempt = 1;
+    row.assessment.verdict = acquisition::Verdict::accepted;
+    row.file = "layers/000001.tif";
+    row.sha256 = reconstruct::sha256_of_file(sample_.layer_path(1));
+    journal.commit_layer(row, 1, "2026-01-02T03:04:05Z");
+    row.layer = 2;
+    row.file = "layers/000002.tif";
+    row.sha256 = std::string(64, '0');
+    journal.commit_layer(row, 1, "2026-01-02T03:04:06Z");
+  }
+  const std::string said = run();
+  EXPECT_THAT(said, HasSubstr("000002.tif: is not what was stored"));
+  EXPECT_THAT(said, HasSubstr("000003.tif: has no record"));
+  EXPECT_THAT(said, HasSubstr("2 things are wrong"));
+}
+
+TEST_F(VerifyCommand, FindsAJournalThatCannotBeRead) {
+  reconstruct::write_text(sample_.journal_path(), "not a database, and long enough to be none");
+  EXPECT_THAT(run(), HasSubstr(sample_.journal_path().string() + ": "));
+}
+
+}  // namespace
+}  // namespace biotomy::tools

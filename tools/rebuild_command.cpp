@@ -1,0 +1,46 @@
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "acquisition/records/sample_lock.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/store/volume_rebuild.hpp"
+#include "tools/command.hpp"
+#include "tools/interruption.hpp"
+#include "tools/progress_bar.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The lock's name is made of the folder's: `knee/` must lock what `knee` does.
+fs::path without_slash(const std::string& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+void run(const std::string& folder) {
+  const auto sample = reconstruct::SampleFolder::open(folder);
+  const acquisition::SampleLock lock(without_slash(folder));
+  const Interruption interruption;
+  ProgressBar bar("Rebuilding", "layers");
+  reconstruct::rebuild_volume(
+      sample, [&](std::int64_t done, std::int64_t total) { bar.update(done, total); },
+      Interruption::requested);
+}
+
+}  // namespace
+
+void add_rebuild_command(CLI::App& app) {
+  auto sample = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "rebuild", "Makes a sample's volume anew from its layers; the old one stays until then.");
+  command->add_option("SAMPLE", *sample, "The sample folder")->required();
+  command->callback([sample] { run(*sample); });
+}
+
+}  // namespace biotomy::tools
