@@ -51,7 +51,7 @@ for (const { bits, colours, codec } of volumes) {
   await checkMetadata(name, store, steps, spacing, schemas);
   await checkZarrita(name, store, expected);
   writeExpected(path.join(folder, "expected"), expected);
-  checkZarrPython3(name, store, path.join(folder, "expected"), root);
+  await checkZarrPython3(name, tool, sample, path.join(folder, "expected"), root);
   checkExport04(name, tool, sample, path.join(folder, "expected"), folder);
   await checkNeuroglancer(name, store, layers, spacing, work, path.join(cache, "neuroglancer"));
 }

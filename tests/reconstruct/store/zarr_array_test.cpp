@@ -90,7 +90,7 @@ TEST(ZarrArray, IsUnderstoodAsAnotherProgramWritesItAnew) {
   auto json = nlohmann::json::parse(array_metadata(array));
   json["attributes"] = {{"scanned by", "somebody"}, {"of", {1, 2, 3}}};
   json["storage_transformers"] = nlohmann::json::array();
-  // One byte has no order: zarr-python writes `bytes` of uint8 without.
+  // One byte has no order, which some writers then leave out.
   json["codecs"][0]["configuration"]["codecs"][1].erase("configuration");
   EXPECT_EQ(parse_array_metadata(json.dump(), "a"), array);
   json.erase("attributes");
