@@ -11,6 +11,7 @@
 #include "reconstruct/sample/image_sequence.hpp"
 #include "reconstruct/store/codecs.hpp"
 #include "tools/command.hpp"
+#include "tools/interruption.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace biotomy::tools {
@@ -42,6 +43,7 @@ struct Options {
   std::string codec = kDefaultLayout.codec;
   std::string colours = kDefaultLayout.interleaved ? kInterleaved : kPlanar;
   std::string compression = "zstd";
+  bool restart = false;
 };
 
 reconstruct::Vector3 vector_of(const std::vector<double>& numbers) {
@@ -84,6 +86,7 @@ reconstruct::ImportRequest request_of(const Options& options) {
                                          : reconstruct::LayerCompression::deflate;
   request.layout = {zyx_of(options.chunk), zyx_of(options.shard), options.colours == kInterleaved,
                     options.codec};
+  request.restart = options.restart;
   reconstruct::check_layout(request.layout);
   return request;
 }
@@ -92,9 +95,11 @@ void run(const Options& options) {
   const reconstruct::ImportRequest request = request_of(options);
   const auto images =
       reconstruct::ImageSequence::find({options.inputs.begin(), options.inputs.end()});
+  const Interruption interruption;
   ProgressBar bar("Importing", "layers");
-  import_images(images, request,
-                [&](std::int64_t done, std::int64_t total) { bar.update(done, total); });
+  import_images(
+      images, request, [&](std::int64_t done, std::int64_t total) { bar.update(done, total); },
+      Interruption::requested);
 }
 
 }  // namespace
@@ -143,6 +148,8 @@ void add_import_command(CLI::App& app) {
                    "In the volume's chunks: interleaved, voxel by voxel, or planar")
       ->check(CLI::IsMember({kInterleaved, kPlanar}))
       ->capture_default_str();
+  command->add_flag("--restart", options->restart,
+                    "Forget what an interrupted import of the same output has done");
   command->callback([options] { run(*options); });
 }
 

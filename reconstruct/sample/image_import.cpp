@@ -1,25 +1,38 @@
 #include "reconstruct/sample/image_import.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <mutex>
-#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <unistd.h>
+#include <oneapi/tbb/task_group.h>
+#include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/sample/partial_import.hpp"
 #include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/volume_writer.hpp"
+#include "reconstruct/store/write_behind.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr std::size_t kMiB = std::size_t{1} << 20;
 
-constexpr std::size_t kImagesInFlight = 4;
+// An image in flight is there as its file, as what the decoder gave and as RGB, later as RGB, as
+// compressed tiles and as a TIFF.
+constexpr std::size_t kCopiesInFlight = 3;
+constexpr std::size_t kBytesInFlight = 1024 * kMiB;
+constexpr std::size_t kBytesInFlightBesideABand = 512 * kMiB;
+constexpr std::size_t kBytesBehind = 256 * kMiB;
+constexpr int kThreadsBehind = 2;
 
 Vector3 spacing_of(const std::variant<VoxelSpacing, StackSize>& scale, const GridSize& size) {
   Vector3 spacing;
@@ -37,64 +50,7 @@ Vector3 spacing_of(const std::variant<VoxelSpacing, StackSize>& scale, const Gri
   return spacing;
 }
 
-/// A hidden folder beside the one that it becomes; removed unless it did.
-class PartialFolder {
- public:
-  explicit PartialFolder(const fs::path& target)
-      : target_(fs::absolute(target).lexically_normal()) {
-    if (!target_.has_filename()) {
-      target_ = target_.parent_path();  // "sample/"
-    }
-    static std::atomic<unsigned> counter{0};
-    std::ostringstream name;
-    name << '.' << target_.filename().string() << ".partial-" << ::getpid() << '-' << counter++;
-    path_ = target_.parent_path() / name.str();
-    refuse_if_taken();
-  }
-  ~PartialFolder() {
-    if (!finished_) {
-      std::error_code ignored;
-      fs::remove_all(path_, ignored);
-    }
-  }
-  PartialFolder(const PartialFolder&) = delete;
-  PartialFolder& operator=(const PartialFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
-  /// The final name. rename replaces an empty folder and refuses any other.
-  fs::path finish() {
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error) {
-      refuse_if_taken();
-      throw SampleError(target_.string() +
-                        ": cannot give the finished sample its name: " + error.message());
-    }
-    finished_ = true;
-    sync_folder(target_.parent_path());
-    return target_;
-  }
-
- private:
-  void refuse_if_taken() const {
-    std::error_code error;
-    if (fs::exists(target_, error) &&
-        !(fs::is_directory(target_, error) && fs::is_empty(target_, error))) {
-      throw SampleError(target_.string() +
-                        ": is there already and not empty; choose another name or remove it");
-    }
-  }
-
-  fs::path target_;
-  fs::path path_;
-  bool finished_ = false;
-};
-
-}  // namespace
-
-SampleFolder import_images(const ImageSequence& images, const ImportRequest& request,
-                           const ImportProgress& progress) {
+SampleDescription description_of(const ImageSequence& images, const ImportRequest& request) {
   SampleDescription description;
   description.name = request.name;
   description.notes = request.notes;
@@ -102,40 +58,163 @@ SampleFolder import_images(const ImageSequence& images, const ImportRequest& req
   description.bits = images.bits();
   description.cuboid.size = {images.size().width, images.size().height, images.count()};
   description.cuboid.spacing = spacing_of(request.scale, description.cuboid.size);
-  check_layout(request.layout);
+  return description;
+}
 
-  PartialFolder folder(request.output);
-  const SampleFolder sample = SampleFolder::create(folder.path(), description);
-  VolumeWriter volume(sample, request.layout);
+/// The work from the images to a complete sample in its partial folder.
+class ImportWork {
+ public:
+  ImportWork(const ImageSequence& images, const ImportRequest& request, PartialImport& partial,
+             const ImportProgress& progress, const StopRequested& stop)
+      : images_(images),
+        request_(request),
+        partial_(partial),
+        progress_(progress),
+        stop_(stop),
+        volume_(partial.sample(), request.layout),
+        image_bytes_(static_cast<std::size_t>(images.size().area()) *
+                     static_cast<std::size_t>(images.bits() / 8) * 3),
+        bands_in_memory_(image_bytes_ * static_cast<std::size_t>(std::min<std::int64_t>(
+                                            volume_.band_depth(), images.count())) <=
+                         request.most_band_bytes) {}
 
-  std::mutex progress_mutex;
-  std::int64_t done = 0;
-  const auto store_layer = [&](std::int64_t layer) {
-    write_layer_image(sample.layer_path(layer), images.read(layer),
-                      {layer, description.cuboid.spacing}, request.layer_format);
-    const std::lock_guard lock(progress_mutex);
-    ++done;
-    if (progress) {
-      progress(done, images.count());
+  void run() {
+    for (std::int64_t first = 0; first < images_.count(); first += volume_.band_depth()) {
+      const std::int64_t count =
+          std::min<std::int64_t>(volume_.band_depth(), images_.count() - first);
+      const std::vector<cv::Mat> layers = store_layers(first, count);
+      if (volume_.layers_written() < first + count) {
+        append_band(first, count, layers);
+      }
     }
-  };
+    disk_.finish();
+  }
 
-  for (std::int64_t first = 1; first <= images.count(); first += volume.band_depth()) {
-    const std::int64_t last = std::min(first + volume.band_depth() - 1, images.count());
-    std::int64_t next = first;
+ private:
+  void stop_if_asked() const { stop_here_if(stop_, "the import was interrupted"); }
+
+  std::size_t images_in_flight() const {
+    const std::size_t bytes = bands_in_memory_ ? kBytesInFlightBesideABand : kBytesInFlight;
+    const auto threads = static_cast<std::size_t>(tbb::info::default_concurrency());
+    return std::clamp<std::size_t>(bytes / (kCopiesInFlight * image_bytes_), 1, 2 * threads);
+  }
+
+  /// Returns the images of the band's layers, when they fit into memory; those that were stored by
+  /// an import before are empty.
+  std::vector<cv::Mat> store_layers(std::int64_t first, std::int64_t count) {
+    std::vector<cv::Mat> kept(static_cast<std::size_t>(count));
+    std::int64_t next = 0;
     const auto number = [&](tbb::flow_control& control) {
-      if (next > last) {
+      while (next < count && partial_.is_stored(first + next + 1)) {
+        ++next;
+      }
+      if (next == count) {
         control.stop();
       }
       return next++;
     };
+    const auto store = [&](std::int64_t place) {
+      stop_if_asked();
+      const std::int64_t layer = first + place + 1;
+      const cv::Mat image = images_.read(layer);
+      std::vector<std::byte> file = encode_layer_image(
+          partial_.sample().layer_path(layer), image,
+          {layer, partial_.sample().description().cuboid.spacing}, request_.layer_format);
+      // When another image has failed, parallel work in here may have ended with a part undone.
+      if (tbb::is_current_task_group_canceling()) {
+        return;
+      }
+      store_file(layer, std::move(file));
+      if (bands_in_memory_) {
+        kept[static_cast<std::size_t>(place)] = image;
+      }
+    };
     tbb::parallel_pipeline(
-        kImagesInFlight,
+        images_in_flight(),
         tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order, number) &
-            tbb::make_filter<std::int64_t, void>(tbb::filter_mode::parallel, store_layer));
-    volume.append(last, false);
+            tbb::make_filter<std::int64_t, void>(tbb::filter_mode::parallel, store));
+    return kept;
   }
-  return SampleFolder::open(folder.finish());
+
+  void store_file(std::int64_t layer, std::vector<std::byte> file) {
+    const std::size_t size = file.size();
+    disk_.add(size, [this, layer, bytes = std::move(file)] {
+      write_durably(partial_.sample().layer_path(layer), bytes);
+      const std::string hash = sha256(bytes);
+      const std::scoped_lock lock(stored_mutex_);
+      partial_.add_stored(layer, hash);
+      if (progress_) {
+        progress_(partial_.stored_layers(), images_.count());
+      }
+    });
+  }
+
+  void append_band(std::int64_t first, std::int64_t count, const std::vector<cv::Mat>& layers) {
+    const bool in_memory = std::none_of(layers.begin(), layers.end(),
+                                        [](const cv::Mat& layer) { return layer.empty(); });
+    if (in_memory) {
+      volume_.append_band(count, [&](const cv::Rect& region) {
+        stop_if_asked();
+        std::vector<cv::Mat> parts;
+        for (const cv::Mat& layer : layers) {
+          parts.push_back(layer(region));
+        }
+        return parts;
+      });
+      return;
+    }
+    disk_.finish();  // the layer files are read now
+    const LayerBand band(partial_.sample(), first + 1, count);
+    volume_.append_band(count, [&](const cv::Rect& region) {
+      stop_if_asked();
+      return band.read(region);
+    });
+  }
+
+  const ImageSequence& images_;
+  const ImportRequest& request_;
+  PartialImport& partial_;
+  const ImportProgress& progress_;
+  const StopRequested& stop_;
+  VolumeWriter volume_;
+  std::size_t image_bytes_;
+  bool bands_in_memory_;
+  std::mutex stored_mutex_;
+  WriteBehind disk_{kBytesBehind, kThreadsBehind};
+};
+
+/// The end of the message when the work ends before its time. What holds no layer is removed.
+std::string leave(PartialImport& partial) {
+  const std::int64_t stored = partial.stored_layers();
+  if (stored == 0) {
+    partial.discard();
+    return {};
+  }
+  return "; " + std::to_string(stored) + " of " +
+         std::to_string(partial.sample().description().cuboid.size.z) + " layers are kept in " +
+         partial.folder().string() + ": the same command goes on from there, --restart begins anew";
+}
+
+}  // namespace
+
+SampleFolder import_images(const ImageSequence& images, const ImportRequest& request,
+                           const ImportProgress& progress, const StopRequested& stop) {
+  const SampleDescription description = description_of(images, request);
+  check_layout(request.layout);
+  PartialImport partial(request.output, description, import_record(images, request),
+                        request.restart);
+  try {
+    ImportWork(images, request, partial, progress, stop).run();
+    return SampleFolder::open(partial.finish());
+  } catch (const Interrupted& error) {
+    throw Interrupted(error.what() + leave(partial));
+  } catch (const std::exception& error) {
+    const std::string kept = leave(partial);
+    if (kept.empty()) {
+      throw;
+    }
+    throw SampleError(error.what() + kept);
+  }
 }
 
 }  // namespace biotomy::reconstruct

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <oneapi/tbb/parallel_for.h>
 #include <zlib.h>
 #include <zstd.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/tiff_file.hpp"
 #include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -78,7 +78,7 @@ std::vector<Bytes> encode_tiles(const cv::Mat& image, const LayerFormat& format)
   const int across = (image.cols + kTile - 1) / kTile;
   const int down = (image.rows + kTile - 1) / kTile;
   std::vector<Bytes> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t number) {
+  whole_loop(tiles.size(), [&](std::size_t number) {
     const int x = static_cast<int>(number % static_cast<std::size_t>(across)) * kTile;
     const int y = static_cast<int>(number / static_cast<std::size_t>(across)) * kTile;
     const Bytes plain = image.depth() == CV_8U ? predicted_tile<std::uint8_t>(image, x, y)
@@ -119,8 +119,8 @@ void write_tags(TiffFile& file, const cv::Mat& image, const LayerPosition& posit
 
 }  // namespace
 
-StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& image,
-                              const LayerPosition& position, const LayerFormat& format) {
+Bytes encode_layer_image(const std::filesystem::path& path, const cv::Mat& image,
+                         const LayerPosition& position, const LayerFormat& format) {
   if (image.empty() || (image.type() != CV_8UC3 && image.type() != CV_16UC3)) {
     throw SampleError(path.string() + ": a layer image must be RGB of 8 or 16 bits");
   }
@@ -145,7 +145,13 @@ StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& 
     tile = {};  // the file in memory has it now
   }
   file.finish();
-  return {memory.size(), write_durably_verified(path, memory)};
+  return memory;
+}
+
+StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& image,
+                              const LayerPosition& position, const LayerFormat& format) {
+  const Bytes file = encode_layer_image(path, image, position, format);
+  return {file.size(), write_durably_verified(path, file)};
 }
 
 }  // namespace biotomy::reconstruct

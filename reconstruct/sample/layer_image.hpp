@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -35,9 +37,14 @@ struct StoredLayer {
   std::string sha256;  ///< of the file, lower-case hexadecimal, as sha256sum prints it
 };
 
+/// The file of a layer image, complete: `image` (CV_8UC3 or CV_16UC3, R G B) in tiles that are
+/// compressed in parallel. `path` is for messages only. Throws SampleError.
+std::vector<std::byte> encode_layer_image(const std::filesystem::path& path, const cv::Mat& image,
+                                          const LayerPosition& position, const LayerFormat& format);
+
 /// Encodes `image` (CV_8UC3 or CV_16UC3, R G B) and stores it durably: written beside, fsynced,
-/// read back and its hash compared, renamed, the folder fsynced. Tiles are compressed in parallel.
-/// Replaces a file of that name. Throws SampleError; then no file of that name is new.
+/// read back and its hash compared, renamed, the folder fsynced. Replaces a file of that name.
+/// Throws SampleError; then no file of that name is new.
 StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& image,
                               const LayerPosition& position, const LayerFormat& format);
 

@@ -11,7 +11,7 @@ namespace biotomy::reconstruct {
 /// Throws SampleError; then `place` is as it was.
 void replace_folder(const std::filesystem::path& fresh, const std::filesystem::path& place);
 
-/// Removes a folder with all that is in it, if it is there. Throws SampleError.
+/// Removes a folder with all that is in it, or a file, if it is there. Throws SampleError.
 void remove_folder(const std::filesystem::path& folder);
 
 }  // namespace biotomy::reconstruct

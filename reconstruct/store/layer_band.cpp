@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
 #include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -32,8 +32,7 @@ LayerBand::LayerBand(const SampleFolder& sample, std::int64_t first, std::int64_
 
 std::vector<cv::Mat> LayerBand::read(const cv::Rect& region) const {
   std::vector<cv::Mat> layers(readers_.size());
-  tbb::parallel_for(std::size_t{0}, readers_.size(),
-                    [&](std::size_t i) { layers[i] = readers_[i]->read(region); });
+  whole_loop(readers_.size(), [&](std::size_t i) { layers[i] = readers_[i]->read(region); });
   return layers;
 }
 

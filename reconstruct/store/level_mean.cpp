@@ -1,12 +1,12 @@
 #include "reconstruct/store/level_mean.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -79,13 +79,14 @@ void fill_means(const std::vector<cv::Mat>& layers, const HalvedAxes& axes,
     }
     mean_of_rows(in, layers.front().cols, axes.x, means[layer].ptr<Value>(y), sums);
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows * means.size(), kRowsOfATask),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      std::vector<Sum> sums;
-                      for (std::size_t number = range.begin(); number < range.end(); ++number) {
-                        mean_row(number, sums);
-                      }
-                    });
+  const std::size_t count = rows * means.size();
+  whole_loop((count + kRowsOfATask - 1) / kRowsOfATask, [&](std::size_t task) {
+    std::vector<Sum> sums;
+    const std::size_t end = std::min((task + 1) * kRowsOfATask, count);
+    for (std::size_t number = task * kRowsOfATask; number < end; ++number) {
+      mean_row(number, sums);
+    }
+  });
 }
 
 }  // namespace

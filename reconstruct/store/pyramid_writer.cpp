@@ -7,8 +7,6 @@
 #include <span>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "reconstruct/store/codecs.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/level_mean.hpp"
@@ -17,6 +15,7 @@
 #include "reconstruct/store/shard_layers.hpp"
 #include "reconstruct/store/stored_shard.hpp"
 #include "reconstruct/store/write_behind.hpp"
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -61,8 +60,7 @@ class ShardEncoder {
 
   Bytes encode() const {
     std::vector<Bytes> chunks(static_cast<std::size_t>(count_.total()));
-    tbb::parallel_for(std::size_t{0}, chunks.size(),
-                      [&](std::size_t place) { chunks[place] = encode_chunk(place); });
+    whole_loop(chunks.size(), [&](std::size_t place) { chunks[place] = encode_chunk(place); });
     return encode_shard(chunks);
   }
 

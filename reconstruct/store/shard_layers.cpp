@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "reconstruct/store/codecs.hpp"
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -45,7 +44,7 @@ std::vector<cv::Mat> shard_layers(const std::optional<StoredShard>& shard, const
           .copyTo(layers[static_cast<std::size_t>(layer - first)](inside));
     }
   };
-  tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(chunks.total()), put_chunk);
+  whole_loop(static_cast<std::size_t>(chunks.total()), put_chunk);
   return layers;
 }
 

@@ -59,6 +59,24 @@ inline std::map<std::string, std::vector<std::byte>> contents_of(
   return contents;
 }
 
+/// The names of the files that two contents do not have in common, or not alike.
+inline std::vector<std::string> differing_files(
+    const std::map<std::string, std::vector<std::byte>>& a,
+    const std::map<std::string, std::vector<std::byte>>& b) {
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : a) {
+    if (const auto found = b.find(name); found == b.end() || found->second != bytes) {
+      names.push_back(name);
+    }
+  }
+  for (const auto& [name, bytes] : b) {
+    if (a.find(name) == a.end()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
 /// What an action throws of a kind, or nothing.
 template <typename Error, typename Action>
 std::string message_of(Action&& action) {

@@ -45,7 +45,7 @@ TEST_F(VolumeRebuild, GivesByteForByteWhatWasAppendedBandByBand) {
                              EXPECT_EQ(total, 13);
                            }),
             13);
-  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
   EXPECT_THAT(progress, testing::ElementsAre(4, 8, 12, 13));
   EXPECT_THAT(names(),
               UnorderedElementsAre("sample.toml", "layers", "rejected", "volume.ome.zarr"));
@@ -57,7 +57,7 @@ TEST_F(VolumeRebuild, MendsAVolumeThatIsDamagedAndKeepsItsLayout) {
   write_text(sample_.volume_path() / "zarr.json", "{}");
   std::filesystem::remove_all(sample_.volume_path() / "1");
   rebuild_volume(sample_);
-  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
 }
 
 TEST_F(VolumeRebuild, GivesAStoreOfOneLevelItsLevels) {
@@ -70,7 +70,7 @@ TEST_F(VolumeRebuild, GivesAStoreOfOneLevelItsLevels) {
   write_text(sample_.volume_path() / "zarr.json", group_metadata(metadata));
   ASSERT_EQ(Volume::open(sample_.volume_path()).levels(), 1);
   rebuild_volume(sample_);
-  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
 }
 
 TEST_F(VolumeRebuild, MakesAVolumeWhereThereIsNone) {
@@ -95,7 +95,7 @@ TEST_F(VolumeRebuild, LeavesTheOldVolumeWhenALayerIsDamaged) {
   const auto appended = volume_contents();
   truncate_file(sample_.layer_path(11), 0.5);
   EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }), HasSubstr("000011.tif"));
-  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
   EXPECT_THAT(names(),
               UnorderedElementsAre("sample.toml", "layers", "rejected", "volume.ome.zarr"));
 }
@@ -105,7 +105,7 @@ TEST_F(VolumeRebuild, StopsWhenAskedAndLeavesTheOldVolume) {
   const auto appended = volume_contents();
   int questions = 0;
   EXPECT_THROW(rebuild_volume(sample_, {}, [&] { return ++questions == 20; }), Interrupted);
-  EXPECT_EQ(volume_contents(), appended);
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
   EXPECT_THAT(names(),
               UnorderedElementsAre("sample.toml", "layers", "rejected", "volume.ome.zarr"));
 }

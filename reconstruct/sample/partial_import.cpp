@@ -1,0 +1,204 @@
+#include "reconstruct/sample/partial_import.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/import_request.hpp"
+#include "reconstruct/sample/layer_hashes.hpp"
+#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/folder_swap.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+using nlohmann::json;
+
+constexpr const char* kRequestName = "request.json";
+constexpr const char* kSampleName = "sample";
+
+fs::path without_slash(const fs::path& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+std::string file_of(const SampleFolder& sample, std::int64_t layer) {
+  return sample.layer_path(layer).lexically_relative(sample.path()).string();
+}
+
+/// What a process that was killed has left of the files that it was writing (see durable_file).
+void remove_unfinished_files(const fs::path& folder) {
+  std::vector<fs::path> unfinished;
+  std::error_code error;
+  for (auto entry = fs::recursive_directory_iterator(folder, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->path().filename().string().front() == '.') {
+      unfinished.push_back(entry->path());
+    }
+  }
+  for (const fs::path& path : unfinished) {
+    remove_folder(path);
+  }
+}
+
+bool is_same_folder(const FileDescriptor& opened, const fs::path& path) {
+  struct stat a {};
+  struct stat b {};
+  return ::fstat(opened.get(), &a) == 0 && ::stat(path.c_str(), &b) == 0 && a.st_ino == b.st_ino &&
+         a.st_dev == b.st_dev;
+}
+
+}  // namespace
+
+PartialImport::PartialImport(const fs::path& output, const SampleDescription& description,
+                             const json& asked, bool restart)
+    : output_(without_slash(output)),
+      folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
+  refuse_if_taken();
+  lock();
+  if (restart || !take_up(asked)) {
+    try {
+      begin(description, asked);
+    } catch (...) {
+      discard();
+      throw;
+    }
+  }
+  hashes_file_ = FileDescriptor(
+      ::open(hashes_path().c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644));
+  if (!hashes_file_.is_open()) {
+    throw SampleError(hashes_path().string() + ": cannot open it: " + std::strerror(errno));
+  }
+}
+
+void PartialImport::refuse_if_taken() const {
+  std::error_code error;
+  if (fs::exists(output_, error) &&
+      !(fs::is_directory(output_, error) && fs::is_empty(output_, error))) {
+    if (fs::exists(folder_ / kRequestName, error) && !fs::exists(folder_ / kSampleName, error)) {
+      fs::remove_all(folder_, error);  // of the import that made the output and was then killed
+    }
+    throw SampleError(output_.string() +
+                      ": is there already and not empty; choose another name or remove it");
+  }
+}
+
+void PartialImport::lock() {
+  for (;;) {
+    std::error_code error;
+    fs::create_directory(folder_, error);
+    if (error) {
+      throw SampleError(folder_.string() + ": cannot create this folder: " + error.message());
+    }
+    lock_ = FileDescriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!lock_.is_open() && errno == ENOENT) {
+      continue;  // another import was finished just now
+    }
+    if (!lock_.is_open()) {
+      throw SampleError(folder_.string() + ": cannot open it: " + std::strerror(errno));
+    }
+    if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
+      throw SampleError(output_.string() + ": another import of it is at work; wait for its end");
+    }
+    if (is_same_folder(lock_, folder_)) {
+      sync_folder(folder_.parent_path());
+      return;
+    }
+  }
+}
+
+bool PartialImport::take_up(const json& asked) {
+  std::ifstream in(folder_ / kRequestName, std::ios::binary);
+  std::error_code error;
+  if (!in || !fs::exists(folder_ / kSampleName, error)) {
+    return false;  // nothing was begun, or all was finished but the removal of this folder
+  }
+  json begun;
+  try {
+    begun = json::parse(in);
+  } catch (const json::exception&) {
+    throw SampleError((folder_ / kRequestName).string() +
+                      ": is damaged; give --restart to begin anew");
+  }
+  if (const auto difference = import_difference(begun, asked)) {
+    throw SampleError(output_.string() + ": another import of it was begun, in which " +
+                      *difference +
+                      " was another; repeat that to go on, or give --restart to begin anew");
+  }
+  sample_ = SampleFolder::open(folder_ / kSampleName);
+  remove_unfinished_files(sample_->path());
+  if (fs::exists(hashes_path(), error)) {
+    const std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
+    for (const LayerHash& each : hashes) {
+      stored_[each.file] = each.sha256;
+    }
+    write_durably(hashes_path(), layer_hash_lines(hashes));  // without a line that was cut off
+  }
+  return true;
+}
+
+void PartialImport::begin(const SampleDescription& description, const json& asked) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    remove_folder(entry.path());
+  }
+  sample_ = SampleFolder::create(folder_ / kSampleName, description);
+  write_durably(folder_ / kRequestName, asked.dump(1) + "\n");  // last: now it can be taken up
+}
+
+bool PartialImport::is_stored(std::int64_t layer) const {
+  const std::scoped_lock lock(mutex_);
+  return stored_.contains(file_of(*sample_, layer));
+}
+
+std::int64_t PartialImport::stored_layers() const {
+  const std::scoped_lock lock(mutex_);
+  return static_cast<std::int64_t>(stored_.size());
+}
+
+void PartialImport::add_stored(std::int64_t layer, const std::string& sha256) {
+  const LayerHash hash{file_of(*sample_, layer), sha256};
+  const std::string line = layer_hash_lines({hash});
+  const std::scoped_lock lock(mutex_);
+  if (::write(hashes_file_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
+      ::fdatasync(hashes_file_.get()) != 0) {
+    throw SampleError(hashes_path().string() + ": cannot write it: " + std::strerror(errno));
+  }
+  stored_[hash.file] = hash.sha256;
+}
+
+fs::path PartialImport::finish() {
+  std::vector<LayerHash> hashes;
+  for (const auto& [file, sha256] : stored_) {
+    hashes.push_back({file, sha256});
+  }
+  write_durably(sample_->hashes_path(), layer_hash_lines(hashes));
+  std::error_code error;
+  fs::rename(sample_->path(), output_, error);  // takes the place of an empty folder, of no other
+  if (error) {
+    refuse_if_taken();
+    throw SampleError(output_.string() +
+                      ": cannot give the finished sample its name: " + error.message());
+  }
+  sync_folder(output_.parent_path());
+  discard();
+  return output_;
+}
+
+void PartialImport::discard() noexcept {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace biotomy::reconstruct
