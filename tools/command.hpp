@@ -13,6 +13,7 @@ void add_section_command(CLI::App& app);
 void add_series_command(CLI::App& app);
 void add_verify_command(CLI::App& app);
 void add_rebuild_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_rig_command(CLI::App& app);
 
 }  // namespace biotomy::tools

@@ -94,15 +94,24 @@ int TiffFile::drop_message(TIFF* /*tiff*/, void* /*user_data*/, const char* /*mo
 }
 
 TiffFile TiffFile::open(const std::filesystem::path& path) {
+  // Not mapped ('m'): a page that the disk cannot give is then an error and not a SIGBUS.
+  return open_path(path, "rm", "cannot be opened as a TIFF");
+}
+
+TiffFile TiffFile::create_on_disk(const std::filesystem::path& path, bool big) {
+  return open_path(path, big ? "wl8" : "wl", "cannot be started as a TIFF");
+}
+
+TiffFile TiffFile::open_path(const std::filesystem::path& path, const char* mode,
+                             const char* failure) {
   TiffFile file;
   file.report_->path = path;
   const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, file.report_.get());
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_message, nullptr);
-  // Read, not mapped ('m'): a page that the disk cannot give is then an error and not a SIGBUS.
-  file.tiff_.reset(TIFFOpenExt(path.c_str(), "rm", options.get()));
+  file.tiff_.reset(TIFFOpenExt(path.c_str(), mode, options.get()));
   if (!file.tiff_) {
-    file.fail("cannot be opened as a TIFF");
+    file.fail(failure);
   }
   return file;
 }

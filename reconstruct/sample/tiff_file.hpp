@@ -24,6 +24,9 @@ class TiffFile {
   static TiffFile create(std::vector<std::byte>& memory, bool big,
                          const std::filesystem::path& path);
 
+  /// Starts a little-endian TIFF on the disk, under its name at once. Throws SampleError.
+  static TiffFile create_on_disk(const std::filesystem::path& path, bool big);
+
   TIFF* get() const { return tiff_.get(); }
 
   template <typename T>
@@ -51,6 +54,8 @@ class TiffFile {
     void operator()(TIFF* tiff) const { TIFFClose(tiff); }
   };
   TiffFile();
+  static TiffFile open_path(const std::filesystem::path& path, const char* mode,
+                            const char* failure);
   static int keep_message(TIFF* tiff, void* user_data, const char* module, const char* format,
                           va_list arguments);
   static int drop_message(TIFF* tiff, void* user_data, const char* module, const char* format,

@@ -1,0 +1,77 @@
+#include "reconstruct/export/unfinished_export.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/store/folder_swap.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path without_slash(const fs::path& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+}  // namespace
+
+UnfinishedExport::UnfinishedExport(const fs::path& output)
+    : output_(without_slash(output)),
+      folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
+  refuse_if_taken();
+  remove_folder(folder_);  // of an export that was killed
+  create_folders_durably(folder_);
+}
+
+UnfinishedExport::~UnfinishedExport() {
+  if (!finished_) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+}
+
+void UnfinishedExport::refuse_if_taken() const {
+  std::error_code error;
+  if (fs::exists(output_, error) &&
+      !(fs::is_directory(output_, error) && fs::is_empty(output_, error))) {
+    throw SampleError(output_.string() +
+                      ": is there already and not empty; choose another name or remove it");
+  }
+}
+
+void UnfinishedExport::finish() {
+  // An export is thousands of small files: one sync of their file system is quicker than theirs.
+  const FileDescriptor folder(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.is_open() || ::syncfs(folder.get()) != 0) {
+    throw SampleError(folder_.string() + ": cannot write it to the disk: " + std::strerror(errno));
+  }
+  std::error_code error;
+  fs::rename(folder_, output_, error);
+  if (error) {
+    refuse_if_taken();
+    throw SampleError(output_.string() + ": cannot be given its name: " + error.message());
+  }
+  finished_ = true;
+  sync_folder(output_.parent_path());
+}
+
+void write_plainly(const fs::path& path, const void* data, std::size_t size) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+  out.close();
+  if (!out) {
+    throw SampleError(path.string() + ": cannot write it; is the disk full?");
+  }
+}
+
+}  // namespace biotomy::reconstruct

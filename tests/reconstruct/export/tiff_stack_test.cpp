@@ -1,0 +1,88 @@
+#include "reconstruct/export/tiff_stack.hpp"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/sample/tiff_file.hpp"
+#include "reconstruct/store/volume_writer.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/reconstruct/volume_levels.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+class ATiffStack : public testing::TestWithParam<int> {
+ protected:
+  ATiffStack() {
+    layout_.chunk = {4, 8, 16};
+    layout_.shard = {8, 16, 32};
+    VolumeWriter(sample_, layout_).append(11, true);
+    request_.output = folder_ / "out";
+  }
+  auto sorted_names() const {
+    auto names = names_in(request_.output);
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  tests::TemporaryFolder folder_;
+  SampleFolder sample_ = sample_with_layers(folder_ / "s", {90, 45, 11}, GetParam(), 11);
+  VolumeLayout layout_;
+  ExportRequest request_;
+};
+
+TEST_P(ATiffStack, HoldsEveryLayerOfALevel) {
+  const Volume volume = Volume::open(sample_.volume_path());
+  for (const int level : {0, 1}) {
+    request_.level = level;
+    request_.output = folder_ / ("out" + std::to_string(level));
+    export_tiff_stack(volume, request_);
+    const auto expected = stored_level(volume, level);
+    ASSERT_EQ(sorted_names().size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_TRUE(same_pixels(read_image_file(request_.output / sorted_names()[k]), expected[k]))
+          << level << ", " << k;
+    }
+  }
+}
+
+TEST_P(ATiffStack, HoldsARegionNumberedByItsLayers) {
+  request_.region = "17:40,3:44,2:10";
+  export_tiff_stack(Volume::open(sample_.volume_path()), request_);
+  EXPECT_EQ(sorted_names().front(), "000003.tif");
+  EXPECT_EQ(sorted_names().back(), "000010.tif");
+  const int type = GetParam() == 8 ? CV_8UC3 : CV_16UC3;
+  EXPECT_TRUE(same_pixels(read_image_file(request_.output / "000003.tif"),
+                          test_image(90, 45, type, 3)(cv::Rect(17, 3, 23, 41))));
+}
+
+TEST_P(ATiffStack, IsPlainEnoughForAnyReader) {
+  export_tiff_stack(Volume::open(sample_.volume_path()), request_);
+  const TiffFile file = TiffFile::open(request_.output / "000001.tif");
+  EXPECT_EQ(TIFFIsTiled(file.get()), 0);
+  EXPECT_EQ(file.number<std::uint16_t>(TIFFTAG_COMPRESSION, 0), COMPRESSION_ADOBE_DEFLATE);
+  EXPECT_EQ(file.number<std::uint16_t>(TIFFTAG_PREDICTOR, 1), 1);
+  EXPECT_FLOAT_EQ(file.number<float>(TIFFTAG_XRESOLUTION, 0), 1000.0F);  // 10 micrometres
+}
+
+TEST_P(ATiffStack, LeavesNothingWhenAChunkIsDamagedOrItIsInterrupted) {
+  const auto shard = sample_.volume_path() / "0" / "c" / "0" / "1" / "0" / "0";
+  request_.stop = [] { return true; };
+  EXPECT_THROW(export_tiff_stack(Volume::open(sample_.volume_path()), request_), Interrupted);
+  request_.stop = {};
+  flip_byte(shard, 5);
+  EXPECT_THAT(message_of<SampleError>(
+                  [&] { export_tiff_stack(Volume::open(sample_.volume_path()), request_); }),
+              testing::HasSubstr(shard.string()));
+  EXPECT_THAT(names_in(folder_.path()), testing::ElementsAre("s"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Bits, ATiffStack, testing::Values(8, 16));
+
+}  // namespace
+}  // namespace biotomy::reconstruct
