@@ -11,8 +11,17 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr int kChannels = 3;
-constexpr std::uint32_t kLongestSide = 1U << 20;  // refuses nonsense before memory is asked for it
-constexpr std::uint32_t kLongestTileSide = 1U << 13;
+// These refuse nonsense before memory is asked for it.
+constexpr std::uint32_t kLongestSide = 1U << 20;
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
+constexpr std::uint32_t kLongestTileSide = 1U << 11;  // 25 MB decoded
+
+/// libtiff knows many more; what a layer can be in is lossless.
+bool is_lossless(std::uint16_t compression) {
+  return compression == COMPRESSION_NONE || compression == COMPRESSION_LZW ||
+         compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE ||
+         compression == COMPRESSION_ZSTD;
+}
 
 }  // namespace
 
@@ -30,12 +39,13 @@ LayerImageReader::LayerImageReader(const std::filesystem::path& path)
     file_->fail("is not a layer image: expected a tiled RGB TIFF of 8 or 16 bits");
   }
   if (width == 0 || height == 0 || width > kLongestSide || height > kLongestSide ||
-      tile_width == 0 || tile_height == 0 || tile_width > kLongestTileSide ||
-      tile_height > kLongestTileSide) {
+      std::uint64_t{width} * height > kMostPixels || tile_width == 0 || tile_height == 0 ||
+      tile_width > kLongestTileSide || tile_height > kLongestTileSide) {
     file_->fail("is not a layer image: its size makes no sense");
   }
-  if (TIFFIsCODECConfigured(file_->number<std::uint16_t>(TIFFTAG_COMPRESSION, 0)) == 0) {
-    file_->fail("is compressed in a way that this libtiff does not know");
+  const auto compression = file_->number<std::uint16_t>(TIFFTAG_COMPRESSION, 0);
+  if (!is_lossless(compression) || TIFFIsCODECConfigured(compression) == 0) {
+    file_->fail("is compressed in a way that is not lossless or that this libtiff does not know");
   }
   width_ = static_cast<int>(width);
   height_ = static_cast<int>(height);

@@ -191,7 +191,12 @@ fs::path PartialImport::finish() {
     throw SampleError(output_.string() +
                       ": cannot give the finished sample its name: " + error.message());
   }
-  sync_folder(output_.parent_path());
+  try {
+    sync_folder(output_.parent_path());
+  } catch (const SampleError&) {
+    fs::rename(output_, sample_->path(), error);  // to where the same command goes on from
+    throw;
+  }
   discard();
   return output_;
 }

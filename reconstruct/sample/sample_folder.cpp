@@ -1,8 +1,8 @@
 #include "reconstruct/sample/sample_folder.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <initializer_list>
 #include <optional>
 #include <sstream>
@@ -12,6 +12,8 @@
 #include <toml++/toml.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
+#include "reconstruct/geometry/spacing.hpp"
 #include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::reconstruct {
@@ -23,6 +25,7 @@ constexpr const char* kDescriptionName = "sample.toml";
 constexpr const char* kLayersName = "layers";
 constexpr const char* kRejectedName = "rejected";
 constexpr std::int64_t kMostVoxels = 1'000'000;  // along one axis
+constexpr std::uintmax_t kMostDescriptionBytes = std::uintmax_t{1} << 20;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw SampleError(file.string() + ": " + what);
@@ -36,8 +39,8 @@ void check(const SampleDescription& description, const fs::path& file) {
     }
   };
   const auto check_spacing = [&](const char* key, double spacing) {
-    if (!std::isfinite(spacing) || spacing <= 0.0) {
-      fail(file, std::string("spacing_um.") + key + " must be a number above 0");
+    if (!is_spacing(spacing)) {
+      fail(file, std::string("spacing_um.") + key + " must be a number from 1e-6 to 1e9");
     }
   };
   check_count("layers", description.cuboid.size.z);
@@ -80,7 +83,7 @@ void refuse_unknown_keys(const toml::table& table, const std::string& prefix,
       found = found || key.str() == name;
     }
     if (!found) {
-      fail(file, "unknown key " + prefix + std::string(key.str()));
+      fail(file, "unknown key " + prefix + excerpt(key.str()));
     }
   }
 }
@@ -107,13 +110,28 @@ const toml::table& required_table(const toml::table& table, const char* key, con
   return *node->as_table();
 }
 
+std::string read_description(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size > kMostDescriptionBytes) {
+    fail(file, error ? "cannot be read: " + error.message()
+                     : "has " + std::to_string(size) + " bytes: it is no description of a sample");
+  }
+  std::string text(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(text.data(), static_cast<std::streamsize>(size))) {
+    fail(file, "cannot be read");
+  }
+  return text;
+}
+
 SampleDescription parse(const fs::path& file) {
   toml::table table;
   try {
-    table = toml::parse_file(file.string());
+    table = toml::parse(read_description(file), file.string());
   } catch (const toml::parse_error& error) {
     std::ostringstream what;
-    what << "line " << error.source().begin.line << ": " << error.description();
+    what << "line " << error.source().begin.line << ": " << excerpt(error.description());
     fail(file, what.str());
   }
   refuse_unknown_keys(table, "", {"name", "created", "notes", "bits", "grid", "spacing_um"}, file);

@@ -94,7 +94,8 @@ int TiffFile::drop_message(TIFF* /*tiff*/, void* /*user_data*/, const char* /*mo
 }
 
 TiffFile TiffFile::open(const std::filesystem::path& path) {
-  return open_path(path, "r", "cannot be opened as a TIFF");
+  // Not mapped ('m'): a page that the disk cannot give is then an error and not a SIGBUS.
+  return open_path(path, "rm", "cannot be opened as a TIFF");
 }
 
 TiffFile TiffFile::create_on_disk(const std::filesystem::path& path, bool big) {

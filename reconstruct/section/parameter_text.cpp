@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 #include "reconstruct/section/nearest_word.hpp"
 
 namespace biotomy::reconstruct {
@@ -21,7 +22,7 @@ constexpr double kMostColour = 255.0;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& text,
                          const std::string& wanted) {
-  throw InvalidRequest(name + " '" + text + "': give " + wanted);
+  throw InvalidRequest(name + " '" + excerpt(text) + "': give " + wanted);
 }
 
 std::string_view without_blanks(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include <blosc.h>
 #include <nlohmann/json.hpp>
@@ -95,6 +96,16 @@ void planar_to_interleaved(std::span<const std::byte> planes, std::span<std::byt
   }
   cv::Mat out = row_over(voxels.data(), count, CV_MAKETYPE(depth, kColours));
   cv::merge(in.data(), in.size(), out);
+}
+
+/// Whether the header of a valid Blosc buffer names this compressor. Blosc would meet another one
+/// that it lacks with a line on stderr, and one that it has with a chunk that no writer of ours
+/// made.
+bool is_made_by(std::string_view compressor, std::span<const std::byte> encoded) {
+  const char* library = blosc_cbuffer_complib(encoded.data());
+  return library != nullptr &&
+         library == std::string_view(compressor == BLOSC_LZ4_COMPNAME ? BLOSC_LZ4_LIBNAME
+                                                                      : BLOSC_ZSTD_LIBNAME);
 }
 
 void append_checksum(Bytes& encoded) {
@@ -234,7 +245,7 @@ void ChunkCodec::decompress(std::span<const std::byte> encoded, std::span<std::b
     case Compressor::Kind::blosc: {
       std::size_t size = 0;
       if (blosc_cbuffer_validate(encoded.data(), encoded.size(), &size) != 0 ||
-          size != plain.size() ||
+          size != plain.size() || !is_made_by(compressor_.blosc_compressor, encoded) ||
           blosc_decompress_ctx(encoded.data(), plain.data(), plain.size(), 1) !=
               static_cast<int>(plain.size())) {
         throw SampleError("Blosc cannot decompress it");

@@ -35,6 +35,10 @@ class ChunkCodec {
   /// Bytes of one decoded chunk.
   std::size_t chunk_bytes() const { return voxels_ * kColours * value_bytes_; }
 
+  /// More bytes than any encoder makes of a chunk: none stores what it cannot squeeze at twice its
+  /// size. Who allocates what a file asks for allocates no more than this.
+  std::size_t longest_encoded() const { return 2 * chunk_bytes() + kLeastEncoded; }
+
   /// `voxels` is laid out as ChunkVoxels says, whatever the layout on disk.
   std::vector<std::byte> encode(std::span<const std::byte> voxels) const;
 
@@ -44,6 +48,7 @@ class ChunkCodec {
 
  private:
   static constexpr std::size_t kColours = 3;
+  static constexpr std::size_t kLeastEncoded = 1024;  // headers and checksums of tiny chunks
 
   std::vector<std::byte> compress(std::span<const std::byte> plain) const;
   void decompress(std::span<const std::byte> encoded, std::span<std::byte> plain) const;

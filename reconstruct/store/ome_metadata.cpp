@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/geometry/spacing.hpp"
+#include "reconstruct/store/metadata_json.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostLevels = 32;
+constexpr std::int64_t kMostLayers = 1'000'000;  // as in sample.toml
 constexpr double kMostFactor = 1 << 30;
 constexpr double kSameFactor = 1e-9;  // relative
 
@@ -61,11 +64,14 @@ json channels(int bits) {
 
 Vector3 scale_of(const json& dataset) {
   const json& scale = dataset.at("coordinateTransformations").at(0).at("scale");
+  if (scale.size() != 4) {
+    throw SampleError("a level's scale is not that of c, z, y, x");
+  }
   const Vector3 spacing{scale.at(3).get<double>(), scale.at(2).get<double>(),
                         scale.at(1).get<double>()};
   for (const double each : {spacing.x, spacing.y, spacing.z}) {
-    if (!std::isfinite(each) || each <= 0.0) {
-      throw SampleError("the spacings must be above 0");
+    if (!is_spacing(each)) {
+      throw SampleError("the spacings make no sense");
     }
   }
   return spacing;
@@ -82,6 +88,10 @@ std::int64_t factor_between(double finest, double spacing) {
   return static_cast<std::int64_t>(factor);
 }
 
+bool is_coarser(const LevelFactor& level, const LevelFactor& than) {
+  return level.x >= than.x && level.y >= than.y && level.z >= than.z && level != than;
+}
+
 std::vector<LevelFactor> levels_of(const json& datasets) {
   if (datasets.empty() || datasets.size() > kMostLevels) {
     throw SampleError("it has " + std::to_string(datasets.size()) + " levels");
@@ -95,6 +105,9 @@ std::vector<LevelFactor> levels_of(const json& datasets) {
     const Vector3 scale = scale_of(datasets.at(level));
     levels.push_back({factor_between(finest.x, scale.x), factor_between(finest.y, scale.y),
                       factor_between(finest.z, scale.z)});
+    if (level > 0 && !is_coarser(levels[level], levels[level - 1])) {
+      throw SampleError("a level is not coarser than the one before");
+    }
   }
   return levels;
 }
@@ -112,10 +125,11 @@ VolumeMetadata from_json(const json& group) {
   metadata.name = multiscale.at("name").get<std::string>();
   metadata.levels = levels_of(datasets);
   metadata.spacing = scale_of(datasets.at(0));
-  metadata.bits = own.at("bits").get<int>();
-  metadata.layers_present = own.at("layers_present").get<std::int64_t>();
-  if (metadata.layers_present < 0 || (metadata.bits != 8 && metadata.bits != 16)) {
-    throw SampleError("attributes.biotomy makes no sense");
+  metadata.bits = static_cast<int>(whole_number(own.at("bits"), "bits", 8, 16));
+  metadata.layers_present =
+      whole_number(own.at("layers_present"), "layers_present", 0, kMostLayers);
+  if (metadata.bits != 8 && metadata.bits != 16) {
+    throw SampleError("bits must be 8 or 16");
   }
   return metadata;
 }
@@ -147,11 +161,9 @@ std::string group_metadata(const VolumeMetadata& metadata) {
 
 VolumeMetadata parse_group_metadata(const std::string& text, const std::string& name) {
   try {
-    return from_json(json::parse(text));
-  } catch (const json::exception& error) {
+    return from_json(parse_metadata_json(text));
+  } catch (const std::exception& error) {  // of ours, and json's for what is missing
     throw SampleError(name + ": is not the metadata of a volume: " + error.what());
-  } catch (const SampleError& error) {
-    throw SampleError(name + ": cannot be read as a volume: " + error.what());
   }
 }
 

@@ -1,5 +1,9 @@
 #include "reconstruct/store/shard.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/crc32c.hpp"
 
@@ -22,6 +26,22 @@ std::uint64_t little_endian(std::span<const std::byte> bytes) {
     number |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
   }
   return number;
+}
+
+/// Whether two chunks share bytes. Quick for the order in which a shard is written, which is that
+/// of the index.
+bool overlap(const ShardIndex& index) {
+  ShardIndex stored;
+  std::copy_if(index.begin(), index.end(), std::back_inserter(stored),
+               [](const ChunkRange& range) { return range.stored(); });
+  const auto before = [](const ChunkRange& a, const ChunkRange& b) { return a.offset < b.offset; };
+  if (!std::is_sorted(stored.begin(), stored.end(), before)) {
+    std::sort(stored.begin(), stored.end(), before);
+  }
+  return std::adjacent_find(stored.begin(), stored.end(),
+                            [](const ChunkRange& a, const ChunkRange& b) {
+                              return b.offset < a.offset + a.length;
+                            }) != stored.end();
 }
 
 }  // namespace
@@ -52,7 +72,12 @@ std::size_t shard_index_bytes(std::size_t chunk_count) {
   return chunk_count * kRangeBytes + kChecksumBytes;
 }
 
-ShardIndex parse_shard_index(std::span<const std::byte> bytes, std::uint64_t shard_bytes) {
+ShardIndex parse_shard_index(std::span<const std::byte> bytes, std::uint64_t shard_bytes,
+                             std::uint64_t longest_chunk) {
+  if (bytes.size() < kChecksumBytes || (bytes.size() - kChecksumBytes) % kRangeBytes != 0 ||
+      shard_bytes < bytes.size()) {
+    throw SampleError("it is shorter than its index");
+  }
   const auto ranges = bytes.first(bytes.size() - kChecksumBytes);
   if (little_endian(bytes.last(kChecksumBytes)) != crc32c(ranges)) {
     throw SampleError("the checksum of its index is wrong");
@@ -66,6 +91,13 @@ ShardIndex parse_shard_index(std::span<const std::byte> bytes, std::uint64_t sha
         (index[i].length > chunk_bytes || index[i].offset > chunk_bytes - index[i].length)) {
       throw SampleError("its index leads out of it");
     }
+    if (index[i].stored() && index[i].length > longest_chunk) {
+      throw SampleError("its index tells of a chunk of " + std::to_string(index[i].length) +
+                        " bytes, more than any has");
+    }
+  }
+  if (overlap(index)) {
+    throw SampleError("its index lets chunks overlap");
   }
   return index;
 }

@@ -32,7 +32,9 @@ std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& c
 std::size_t shard_index_bytes(std::size_t chunk_count);
 
 /// `bytes` are the last shard_index_bytes() of a shard of `shard_bytes` bytes. Throws SampleError,
-/// without the shard's name, when the checksum is wrong or a range leads out of the shard.
-ShardIndex parse_shard_index(std::span<const std::byte> bytes, std::uint64_t shard_bytes);
+/// without the shard's name, when the checksum is wrong, a range leads out of the shard or is
+/// longer than `longest_chunk` (ChunkCodec::longest_encoded()), or two ranges overlap.
+ShardIndex parse_shard_index(std::span<const std::byte> bytes, std::uint64_t shard_bytes,
+                             std::uint64_t longest_chunk = ChunkRange::kNotStored);
 
 }  // namespace biotomy::reconstruct

@@ -157,7 +157,7 @@ struct Volume::State {
     shard->name = name;
     shard->version = *version;
     try {
-      shard->index = parse_shard_index(index, version->size);
+      shard->index = parse_shard_index(index, version->size, codec.longest_encoded());
     } catch (const SampleError& error) {
       throw SampleError(objects->describe(name) + ": is damaged: " + error.what());
     }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kLongestChunkSide = 1024;
 constexpr int kLongestShardSide = 16384;
+constexpr std::int64_t kMostChunks = std::int64_t{1} << 20;       // of a shard: an index of 16 MiB
 constexpr std::int64_t kMostChunkVoxels = std::int64_t{1} << 24;  // 48 to 96 MB decoded
 
 std::string triple(const std::array<int, 3>& sizes) {
@@ -20,6 +21,7 @@ std::string triple(const std::array<int, 3>& sizes) {
 
 void check_layout(const VolumeLayout& layout) {
   std::int64_t voxels = 1;
+  std::int64_t chunks = 1;
   for (std::size_t axis = 0; axis < layout.chunk.size(); ++axis) {
     if (layout.chunk[axis] < 1 || layout.chunk[axis] > kLongestChunkSide) {
       throw InvalidRequest("chunk " + triple(layout.chunk) + " (x,y,z): each side must be 1 to " +
@@ -33,10 +35,16 @@ void check_layout(const VolumeLayout& layout) {
                            std::to_string(kLongestShardSide));
     }
     voxels *= layout.chunk[axis];
+    chunks *= layout.shard[axis] / layout.chunk[axis];
   }
   if (voxels > kMostChunkVoxels) {
     throw InvalidRequest("chunk " + triple(layout.chunk) + " (x,y,z) holds more than " +
                          std::to_string(kMostChunkVoxels) + " voxels; choose a smaller one");
+  }
+  if (chunks > kMostChunks) {
+    throw InvalidRequest("shard " + triple(layout.shard) + " (x,y,z) holds more than " +
+                         std::to_string(kMostChunks) + " chunks of " + triple(layout.chunk) +
+                         "; choose larger chunks or a smaller shard");
   }
   check_codec_name(layout.codec);
 }

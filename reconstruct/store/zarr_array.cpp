@@ -1,11 +1,15 @@
 #include "reconstruct/store/zarr_array.hpp"
 
 #include <array>
+#include <cstddef>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 #include "reconstruct/store/codecs.hpp"
+#include "reconstruct/store/metadata_json.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -13,7 +17,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int kColours = 3;
-constexpr std::int64_t kMostVoxels = 1'000'000'000;  // along one axis; refuses nonsense
+// Along one axis, as in sample.toml; the product of three and the bytes of a voxel fit 63 bits.
+constexpr std::int64_t kMostVoxels = 1'000'000;
 
 std::int64_t divide_up(std::int64_t size, std::int64_t block) {
   return (size + block - 1) / block;
@@ -47,31 +52,58 @@ json to_json(const ZarrArray& array) {
 
 /// The last three of four sizes, of which the first counts the colours.
 template <typename Size>
-std::array<Size, 3> sizes_zyx(const json& shape) {
-  if (shape.size() != 4 || shape.at(0) != kColours) {
-    throw SampleError("its shape is not colour, z, y, x");
+std::array<Size, 3> sizes_zyx(const json& shape, const std::string& what) {
+  if (!shape.is_array() || shape.size() != 4 || shape.at(0) != kColours) {
+    throw SampleError(what + " is not colour, z, y, x");
   }
-  return {shape.at(1).get<Size>(), shape.at(2).get<Size>(), shape.at(3).get<Size>()};
+  std::array<Size, 3> sizes{};
+  for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
+    sizes[axis] = static_cast<Size>(whole_number(shape.at(axis + 1), what, 1, kMostVoxels));
+  }
+  return sizes;
 }
 
-ZarrArray from_json(const json& metadata) {
-  ZarrArray array;
-  const auto size = sizes_zyx<std::int64_t>(metadata.at("shape"));
-  array.size = {size[2], size[1], size[0]};
-  for (const std::int64_t count : size) {
-    if (count < 1 || count > kMostVoxels) {
-      throw SampleError("its shape makes no sense");
+/// The same codecs with the order of a value's bytes, which one byte has not and some writers then
+/// leave out.
+json with_endian(json codecs) {
+  for (json& codec : codecs) {
+    if (codec.is_object() && codec.value("name", json()) == "bytes" &&
+        codec.value("configuration", json::object()).empty()) {
+      codec["configuration"] = {{"endian", "little"}};
     }
   }
-  array.bits = metadata.at("data_type") == "uint16" ? 16 : 8;
-  array.layout.shard =
-      sizes_zyx<int>(metadata.at("chunk_grid").at("configuration").at("chunk_shape"));
-  const json& codecs = metadata.at("codecs");
+  return codecs;
+}
+
+/// The same array as we write it: without what other programs leave in metadata that they have
+/// rewritten, to which nothing of what we read would be different.
+json without_harmless_additions(json metadata, int bits) {
+  metadata["attributes"] = json::object();
+  const auto transformers = metadata.find("storage_transformers");
+  if (transformers != metadata.end() && *transformers == json::array()) {
+    metadata.erase(transformers);
+  }
+  if (bits == 8) {
+    json& codecs = metadata.at("codecs").at(0).at("configuration").at("codecs");
+    codecs = with_endian(std::move(codecs));
+  }
+  return metadata;
+}
+
+ZarrArray from_json(const json& found) {
+  ZarrArray array;
+  const auto size = sizes_zyx<std::int64_t>(found.at("shape"), "its shape");
+  array.size = {size[2], size[1], size[0]};
+  array.bits = found.at("data_type") == "uint16" ? 16 : 8;
+  array.layout.shard = sizes_zyx<int>(found.at("chunk_grid").at("configuration").at("chunk_shape"),
+                                      "the shape of its shards");
+  const json& codecs = found.at("codecs");
   if (codecs.size() != 1 || codecs.at(0).at("name") != "sharding_indexed") {
     throw SampleError("it is not sharded");
   }
-  const json& sharding = codecs.at(0).at("configuration");
-  array.layout.chunk = sizes_zyx<int>(sharding.at("chunk_shape"));
+  const json metadata = without_harmless_additions(found, array.bits);
+  const json& sharding = metadata.at("codecs").at(0).at("configuration");
+  array.layout.chunk = sizes_zyx<int>(sharding.at("chunk_shape"), "the shape of its chunks");
 
   // What the fields above do not tell apart is told by comparing with what we would have written.
   for (const bool interleaved : {true, false}) {
@@ -80,16 +112,14 @@ ZarrArray from_json(const json& metadata) {
       array.layout.codec = name;
       if (codec_chain(array.layout, array.bits) == sharding.at("codecs")) {
         check_layout(array.layout);
-        json expected = to_json(array);
-        expected["attributes"] = metadata.value("attributes", json::object());
-        if (expected != metadata) {
+        if (to_json(array) != metadata) {
           throw SampleError("it is not an array as Biotomy writes them");
         }
         return array;
       }
     }
   }
-  throw SampleError("its codecs are not known: " + sharding.at("codecs").dump());
+  throw SampleError("its codecs are not known: " + excerpt(sharding.at("codecs").dump()));
 }
 
 }  // namespace
@@ -111,11 +141,9 @@ std::string array_metadata(const ZarrArray& array) {
 
 ZarrArray parse_array_metadata(const std::string& text, const std::string& name) {
   try {
-    return from_json(json::parse(text));
-  } catch (const json::exception& error) {
+    return from_json(parse_metadata_json(text));
+  } catch (const std::exception& error) {  // of ours, and json's for what is missing
     throw SampleError(name + ": is not the metadata of a volume: " + error.what());
-  } catch (const std::exception& error) {
-    throw SampleError(name + ": cannot be read as a volume: " + error.what());
   }
 }
 

@@ -32,8 +32,9 @@ BlockCount chunks_of_shard(const VolumeLayout& layout);
 /// The text of the array's `zarr.json`.
 std::string array_metadata(const ZarrArray& array);
 
-/// Understands the arrays that array_metadata writes. Throws SampleError, which begins with `name`,
-/// on anything else.
+/// Understands the arrays that array_metadata writes, also when another program has written them
+/// anew in other words for the same. Throws SampleError, which begins with `name`, on anything
+/// else.
 ZarrArray parse_array_metadata(const std::string& text, const std::string& name);
 
 /// The name of a shard below its array: `c/0/Z/Y/X` (the three colours are one chunk).

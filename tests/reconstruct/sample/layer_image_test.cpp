@@ -1,5 +1,6 @@
 #include "reconstruct/sample/layer_image.hpp"
 
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -7,6 +8,7 @@
 #include <tiffio.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/sample/tiff_file.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
@@ -65,6 +67,26 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values(LayerCompression::zstd, LayerCompression::deflate),
                      testing::Values(CV_8UC3, CV_16UC3),
                      testing::Values(cv::Size(1, 1), cv::Size(256, 256), cv::Size(300, 513))));
+
+/// A TIFF that says all that a layer image says, of this size along both axes; just its first tile
+/// is stored, and holds nothing that could be decoded.
+void write_tiled_tiff(const std::filesystem::path& path, int compression, int side, int tile) {
+  std::vector<std::byte> memory;
+  TiffFile file = TiffFile::create(memory, false, path);
+  file.set(TIFFTAG_IMAGEWIDTH, side);
+  file.set(TIFFTAG_IMAGELENGTH, side);
+  file.set(TIFFTAG_TILEWIDTH, tile);
+  file.set(TIFFTAG_TILELENGTH, tile);
+  file.set(TIFFTAG_SAMPLESPERPIXEL, 3);
+  file.set(TIFFTAG_BITSPERSAMPLE, 8);
+  file.set(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+  file.set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  file.set(TIFFTAG_COMPRESSION, compression);
+  std::array<std::byte, 4> nothing{};
+  TIFFWriteRawTile(file.get(), 0, nothing.data(), nothing.size());
+  file.finish();
+  write_file(path, memory);
+}
 
 class LayerImage : public testing::Test {
  protected:
@@ -160,6 +182,32 @@ TEST_F(LayerImage, RefusesATiffThatIsNotTiled) {
 
 TEST_F(LayerImage, MissingFileIsSaidSo) {
   EXPECT_THAT(message_of<SampleError>([&] { read_layer_image(path_); }), HasSubstr("No such file"));
+}
+
+TEST_F(LayerImage, RefusesAnImageThatLostSomethingToItsCompression) {
+  write_tiled_tiff(path_, COMPRESSION_JPEG, 16, 16);
+  EXPECT_THAT(message_of<SampleError>([&] { LayerImageReader reader(path_); }),
+              HasSubstr("not lossless"));
+}
+
+TEST_F(LayerImage, RefusesTilesAndImagesThatNoMemoryHolds) {
+  write_tiled_tiff(path_, COMPRESSION_NONE, 16, 4096);
+  EXPECT_THAT(message_of<SampleError>([&] { LayerImageReader reader(path_); }),
+              HasSubstr("size makes no sense"));
+  write_tiled_tiff(path_, COMPRESSION_NONE, 1 << 17, 2048);
+  EXPECT_THAT(message_of<SampleError>([&] { LayerImageReader reader(path_); }),
+              HasSubstr("size makes no sense"));
+}
+
+TEST_F(LayerImage, AChangedByteOfATileIsNoticed) {
+  write_layer_image(path_, image_, kPosition, {});
+  const auto whole = read_file(path_);
+  // The tiles come first, right after the header of 8 bytes.
+  for (std::size_t place = 8; place < whole.size() / 2; place += whole.size() / 40) {
+    flip_byte(path_, place);
+    EXPECT_THROW(read_layer_image(path_), SampleError) << place;
+    write_file(path_, whole);
+  }
 }
 
 }  // namespace

@@ -126,5 +126,28 @@ TEST_F(SampleToml, NamesTheLineThatIsNotToml) {
   EXPECT_THAT(message_for("name = 'a'\nnotes =\n"), HasSubstr("line 2"));
 }
 
+TEST_F(SampleToml, RefusesSpacingsBeyondAllSamples) {
+  EXPECT_THAT(message_for(replaced(good_toml(), "z = 3", "z = 1e300")), HasSubstr("spacing_um.z"));
+  EXPECT_THAT(message_for(replaced(good_toml(), "z = 3", "z = 1e-9")), HasSubstr("spacing_um.z"));
+}
+
+TEST_F(SampleToml, AnswersInOneLineOfReadableLengthWhateverItReads) {
+  const std::string long_key(100'000, 'k');
+  std::string nested = "a = ";
+  nested.append(100'000, '[');
+  for (const std::string& text :
+       {long_key + " = 1\n" + good_toml(), "\"a\\nb\" = 1\n" + good_toml(), nested,
+        "name = \"" + long_key + "\n" + good_toml()}) {
+    const std::string message = message_for(text);
+    EXPECT_THAT(message, testing::Not(HasSubstr("\n")));
+    EXPECT_LT(message.size(), 400U);
+  }
+}
+
+TEST_F(SampleToml, RefusesMoreThanADescriptionHolds) {
+  EXPECT_THAT(message_for(good_toml() + std::string(2 << 20, '\n')),
+              HasSubstr("no description of a sample"));
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct

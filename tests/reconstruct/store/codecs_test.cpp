@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/store/crc32c.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 
@@ -113,6 +114,64 @@ TEST(CodecChain, OfPlanarZstdHasNoTranspose) {
 TEST(CodecNames, OneThatIsNotKnownIsRefusedWithThoseThatAre) {
   EXPECT_THAT(message_of<InvalidRequest>([] { check_codec_name("lzma"); }),
               testing::AllOf(testing::HasSubstr("lzma"), testing::HasSubstr("zstd1")));
+}
+
+/// The bytes with their checksum, as if a writer had meant them.
+Bytes with_checksum(Bytes bytes) {
+  const std::uint32_t crc = crc32c(bytes);
+  for (int shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::byte>(crc >> shift));
+  }
+  return bytes;
+}
+
+TEST_P(EveryCodec, RefusesAWellMeantChunkThatClaimsGigabytes) {
+  const auto& [name, interleaved, bits] = GetParam();
+  const VolumeLayout layout = layout_of(name, interleaved);
+  const ChunkCodec codec(layout, bits);
+  Bytes decoded(codec.chunk_bytes());
+  // Blosc's header: decoded, block and encoded size in bytes 4 to 15, little-endian. zstd's: the
+  // magic number, a descriptor that lets eight bytes of content size follow, those.
+  Bytes blosc(64);
+  blosc[0] = std::byte{2};
+  blosc[1] = std::byte{1};
+  blosc[3] = std::byte{1};
+  for (const std::size_t place : {7, 11}) {
+    blosc[place] = std::byte{0x7F};
+  }
+  blosc[12] = std::byte{64};
+  Bytes zstd(64);
+  for (const auto& [place, value] : {std::pair(0, 0x28), std::pair(1, 0xB5), std::pair(2, 0x2F),
+                                     std::pair(3, 0xFD), std::pair(4, 0xE0), std::pair(9, 0x10)}) {
+    zstd[static_cast<std::size_t>(place)] = static_cast<std::byte>(value);
+  }
+  for (const Bytes& bomb : {blosc, zstd}) {
+    EXPECT_THROW(codec.decode(with_checksum(bomb), decoded), SampleError);
+  }
+}
+
+TEST(ChunkCodec, RefusesAChunkOfAnotherCompressor) {
+  const VolumeLayout layout = layout_of("blosc-lz4-noshuffle", true);
+  VolumeLayout other = layout;
+  other.codec = "blosc-zstd1-noshuffle";
+  const Bytes encoded = ChunkCodec(other, 8).encode(voxels_of(other, 8));
+  const ChunkCodec codec(layout, 8);
+  Bytes decoded(codec.chunk_bytes());
+  EXPECT_THROW(codec.decode(encoded, decoded), SampleError);
+}
+
+TEST(ChunkCodec, NeverEncodesMoreThanItSays) {
+  for (const std::string& name : codec_names()) {
+    VolumeLayout layout = layout_of(name, true);
+    for (const std::array<int, 3>& chunk : {std::array{1, 1, 1}, std::array{5, 16, 24}}) {
+      layout.chunk = layout.shard = chunk;
+      const ChunkCodec codec(layout, 16);
+      Bytes noise(codec.chunk_bytes());
+      cv::Mat over(1, static_cast<int>(noise.size()), CV_8U, noise.data());
+      cv::randu(over, 0, 256);
+      EXPECT_LE(codec.encode(noise).size(), codec.longest_encoded()) << name;
+    }
+  }
 }
 
 }  // namespace

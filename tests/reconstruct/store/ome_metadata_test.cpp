@@ -81,5 +81,39 @@ TEST(OmeMetadata, RefusesAStoreWithoutOurOwnAttributes) {
   EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
 }
 
+TEST(OmeMetadata, RefusesALevelThatIsNotCoarser) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  auto& datasets = group["attributes"]["ome"]["multiscales"][0]["datasets"];
+  datasets[2]["coordinateTransformations"] = datasets[1]["coordinateTransformations"];
+  EXPECT_THAT(message_of<SampleError>([&] { parse_group_metadata(group.dump(), "g"); }),
+              testing::HasSubstr("not coarser"));
+}
+
+TEST(OmeMetadata, RefusesSpacingsThatCannotBeMeant) {
+  for (const double spacing : {1e300, 1e-300, -1.0, 0.0}) {
+    VolumeMetadata metadata = example();
+    metadata.levels = {{}};
+    metadata.spacing.y = spacing;
+    EXPECT_THAT(
+        message_of<SampleError>([&] { parse_group_metadata(group_metadata(metadata), "g"); }),
+        testing::HasSubstr("spacings"))
+        << spacing;
+  }
+}
+
+TEST(OmeMetadata, RefusesNumbersOfOursThatDoNotFit) {
+  const auto original = nlohmann::json::parse(group_metadata(example()));
+  for (const auto& [key, value] :
+       {std::pair("bits", nlohmann::json((std::uint64_t{1} << 32) + 8)),
+        std::pair("bits", nlohmann::json(12)), std::pair("layers_present", nlohmann::json(-1)),
+        std::pair("layers_present", nlohmann::json(1e18))}) {
+    auto group = original;
+    group["attributes"]["biotomy"][key] = value;
+    EXPECT_THAT(message_of<SampleError>([&] { parse_group_metadata(group.dump(), "g"); }),
+                testing::HasSubstr(key))
+        << value;
+  }
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct

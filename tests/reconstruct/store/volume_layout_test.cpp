@@ -38,5 +38,15 @@ TEST(VolumeLayout, RefusesAnUnknownCodec) {
   EXPECT_THROW(check_layout(layout), InvalidRequest);
 }
 
+TEST(VolumeLayout, RefusesAShardOfTooManyChunks) {
+  VolumeLayout layout;
+  layout.chunk = {1, 1, 1};
+  layout.shard = {1, 1024, 1024};
+  EXPECT_NO_THROW(check_layout(layout));
+  layout.shard = {2, 1024, 1024};
+  EXPECT_THAT(message_of<InvalidRequest>([&] { check_layout(layout); }),
+              testing::HasSubstr("1048576 chunks"));
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct

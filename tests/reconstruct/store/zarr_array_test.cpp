@@ -84,5 +84,55 @@ TEST(ZarrArray, RefusesAnotherFillValue) {
   EXPECT_THROW(parse_array_metadata(json.dump(), "a"), SampleError);
 }
 
+TEST(ZarrArray, IsUnderstoodAsAnotherProgramWritesItAnew) {
+  ZarrArray array = example();
+  array.bits = 8;
+  auto json = nlohmann::json::parse(array_metadata(array));
+  json["attributes"] = {{"scanned by", "somebody"}, {"of", {1, 2, 3}}};
+  json["storage_transformers"] = nlohmann::json::array();
+  // One byte has no order, which some writers then leave out.
+  json["codecs"][0]["configuration"]["codecs"][1].erase("configuration");
+  EXPECT_EQ(parse_array_metadata(json.dump(), "a"), array);
+  json.erase("attributes");
+  EXPECT_EQ(parse_array_metadata(json.dump(1, '\t'), "a"), array);
+}
+
+TEST(ZarrArray, RefusesTwoBytesWithoutTheirOrder) {
+  auto json = nlohmann::json::parse(array_metadata(example()));
+  json["codecs"][0]["configuration"]["codecs"][1].erase("configuration");
+  EXPECT_THAT(message_of<SampleError>([&] { parse_array_metadata(json.dump(), "a"); }),
+              HasSubstr("codecs are not known"));
+}
+
+TEST(ZarrArray, RefusesSizesThatCannotBeMeant) {
+  const auto original = nlohmann::json::parse(array_metadata(example()));
+  for (const nlohmann::json& size :
+       {nlohmann::json(0), nlohmann::json(-1), nlohmann::json(1'000'001),
+        nlohmann::json(std::uint64_t{1} << 63), nlohmann::json((std::uint64_t{1} << 32) + 100),
+        nlohmann::json(1e300), nlohmann::json(99.5), nlohmann::json("100")}) {
+    auto json = original;
+    json["shape"][1] = size;
+    EXPECT_THAT(
+        message_of<SampleError>([&] { parse_array_metadata(json.dump(), "v/0/zarr.json"); }),
+        testing::AllOf(StartsWith("v/0/zarr.json: "), HasSubstr("its shape")))
+        << size;
+  }
+}
+
+TEST(ZarrArray, RefusesAShardWhoseIndexWouldFillTheMemory) {
+  auto json = nlohmann::json::parse(array_metadata(example()));
+  json["chunk_grid"]["configuration"]["chunk_shape"] = {3, 16384, 16384, 16384};
+  json["codecs"][0]["configuration"]["chunk_shape"] = {3, 1, 1, 1};
+  EXPECT_THAT(message_of<SampleError>([&] { parse_array_metadata(json.dump(), "a"); }),
+              HasSubstr("chunks"));
+}
+
+TEST(ZarrArray, ShowsOnlyTheBeginningOfCodecsThatItDoesNotKnow) {
+  auto json = nlohmann::json::parse(array_metadata(example()));
+  json["codecs"][0]["configuration"]["codecs"] =
+      nlohmann::json::array({{{"name", std::string(500'000, 'a')}}});
+  EXPECT_LT(message_of<SampleError>([&] { parse_array_metadata(json.dump(), "a"); }).size(), 200U);
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct

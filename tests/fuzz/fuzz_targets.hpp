@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace biotomy::tests {
+
+using FuzzInput = std::span<const std::byte>;
+
+// Each gives the bytes to one reader of ours as a file, or a part of one, that somebody else made.
+// The reader may take them or refuse them with an error of its own, in one line that names the
+// file; the target throws std::logic_error when it does anything else, and crashes when it does.
+// It returns whether the bytes were taken.
+
+bool fuzz_group_metadata(FuzzInput input);
+bool fuzz_array_metadata(FuzzInput input);
+
+/// The ranges of an index; its checksum is added, as no fuzzer guesses one.
+bool fuzz_shard_index(FuzzInput input);
+
+/// The first byte chooses codec, colours and bits (see chunk_kinds.hpp); a checksum is added to the
+/// rest.
+bool fuzz_chunk_decode(FuzzInput input);
+
+bool fuzz_sample_description(FuzzInput input);
+bool fuzz_layer_image(FuzzInput input);
+bool fuzz_parameter_text(FuzzInput input);
+
+struct FuzzTarget {
+  const char* name;  ///< of the folders below corpus/ and regression/
+  bool (*run)(FuzzInput);
+};
+
+inline constexpr std::array kFuzzTargets{
+    FuzzTarget{"group_metadata", fuzz_group_metadata},
+    FuzzTarget{"array_metadata", fuzz_array_metadata},
+    FuzzTarget{"shard_index", fuzz_shard_index},
+    FuzzTarget{"chunk_decode", fuzz_chunk_decode},
+    FuzzTarget{"sample_description", fuzz_sample_description},
+    FuzzTarget{"layer_image", fuzz_layer_image},
+    FuzzTarget{"parameter_text", fuzz_parameter_text},
+};
+
+}  // namespace biotomy::tests
