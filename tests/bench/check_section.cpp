@@ -2,7 +2,7 @@
 // pixels, the colours interpolated in double precision between the voxels around. Fails when one is
 // off by more than a level, or when too few pixels could be compared.
 //
-//   check_section PICTURE --sample SAMPLE --planes FILE --only NAME [--noisy 0.02] [--pixels
+//   check_section PICTURE --sample SAMPLE --planes FILE --only NAME [--noisy 0.05] [--pixels
 //   200000]
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Options {
   std::string sample;
   std::string planes;
   std::string only;
-  double noisy = 0.02;
+  double noisy = 0.05;
   int pixels = 200'000;
 };
 

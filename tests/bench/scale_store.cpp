@@ -4,7 +4,7 @@
 // (made_up_tissue.hpp); those of coarser levels are voxels of level 0, not means.
 //
 //   scale_store --planes FILE [--only NAME] -o SAMPLE [--size 10000,5000,5000] [--spacing 20,20,20]
-//               [--levels 0] [--noisy 0.02]
+//               [--levels 0] [--noisy 0.05]
 
 #include <algorithm>
 #include <atomic>
@@ -49,7 +49,7 @@ struct Options {
   std::vector<std::int64_t> size{10000, 5000, 5000};
   std::vector<double> spacing{20, 20, 20};
   std::vector<std::size_t> levels{0};
-  double noisy = 0.02;
+  double noisy = 0.05;
 };
 
 constexpr const char* kMetadataName = "zarr.json";
@@ -146,7 +146,6 @@ void run(const Options& options) {
   description.cuboid = {{options.size[0], options.size[1], options.size[2]},
                         {options.spacing[0], options.spacing[1], options.spacing[2]}};
   const Cuboid& cuboid = description.cuboid;
-  const SampleFolder sample = SampleFolder::create(options.output, description);
 
   VolumeMetadata group;
   group.name = description.name;
@@ -154,15 +153,21 @@ void run(const Options& options) {
   group.bits = kBits;
   group.levels = pyramid_factors(cuboid, layout.chunk);
   group.layers_present = cuboid.size.z;
+  std::vector<PyramidLevel> levels;
+  std::vector<Shards> shards;  // of each level; found before anything is written
+  for (const LevelFactor& factor : group.levels) {
+    const auto held = std::count(options.levels.begin(), options.levels.end(), levels.size());
+    levels.push_back(pyramid_level(cuboid, factor));
+    shards.push_back(held != 0 ? by_shard(planes, cuboid, levels.back(), layout) : Shards{});
+  }
+
+  const SampleFolder sample = SampleFolder::create(options.output, description);
   Written written;
-  for (std::size_t number = 0; number < group.levels.size(); ++number) {
-    const PyramidLevel level = pyramid_level(cuboid, group.levels[number]);
+  for (std::size_t number = 0; number < levels.size(); ++number) {
     const fs::path folder = sample.volume_path() / level_path(static_cast<int>(number));
     fs::create_directories(folder);
-    write_durably(folder / kMetadataName, array_metadata({level.size, kBits, layout}));
-    if (std::find(options.levels.begin(), options.levels.end(), number) != options.levels.end()) {
-      write_shards(folder, by_shard(planes, cuboid, level, layout), level, layout, tissue, written);
-    }
+    write_durably(folder / kMetadataName, array_metadata({levels[number].size, kBits, layout}));
+    write_shards(folder, shards[number], levels[number], layout, tissue, written);
   }
   write_durably(sample.volume_path() / kMetadataName, group_metadata(group));
   std::cout << written.chunks << " chunks, " << written.bytes / 1'000'000 << " MB\n";
