@@ -1,6 +1,6 @@
 // Makes a sample of any size on disk that holds only the chunks which sections along given planes
 // touch, and those around them: what a section through it costs is what it costs in the whole, for
-// a thousandth of the disk. The metadata says that all layers are there. Its colours are made up
+// a hundredth of the disk. The metadata says that all layers are there. Its colours are made up
 // (made_up_tissue.hpp); those of coarser levels are voxels of level 0, not means.
 //
 //   scale_store --planes FILE [--only NAME] -o SAMPLE [--size 10000,5000,5000] [--spacing 20,20,20]
@@ -16,7 +16,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,6 +53,7 @@ struct Options {
 
 constexpr const char* kMetadataName = "zarr.json";
 constexpr int kBits = 8;
+constexpr int kMostVoxels = 1'000'000;  // along one axis
 constexpr int kReach = 2;  // voxels around: what a wider kernel than the linear one would ask for
 
 /// The places of one shard's chunks.
@@ -85,9 +85,9 @@ Shards by_shard(const std::vector<NamedPlane>& planes, const Cuboid& cuboid,
 /// What lies beyond the level's border is fill value, 0.
 Bytes voxels_of(const ChunkPlace& chunk, const PyramidLevel& level, const std::array<int, 3>& shape,
                 const MadeUpTissue& tissue) {
-  const auto sides =
-      std::tuple<std::int64_t, std::int64_t, std::int64_t>(shape[0], shape[1], shape[2]);
-  const auto [depth, height, width] = sides;
+  const std::int64_t depth = shape[0];
+  const std::int64_t height = shape[1];
+  const std::int64_t width = shape[2];
   Bytes voxels(static_cast<std::size_t>(depth * height * width * 3));
   const std::int64_t columns = std::min(width, level.size.x - chunk.x * width);
   for (std::int64_t z = 0; z < std::min(depth, level.size.z - chunk.z * depth); ++z) {
@@ -139,8 +139,8 @@ void run(const Options& options) {
   const MadeUpTissue tissue(options.noisy);
   const VolumeLayout layout;
   SampleDescription description;
-  description.name = fs::path(options.output).filename().string();
-  description.notes = "made up; holds only what some planes touch";
+  description.name = "made up";
+  description.notes = "holds only what some planes touch";
   description.created = "2026-01-01T00:00:00Z";
   description.bits = kBits;
   description.cuboid = {{options.size[0], options.size[1], options.size[2]},
@@ -153,6 +153,12 @@ void run(const Options& options) {
   group.bits = kBits;
   group.levels = pyramid_factors(cuboid, layout.chunk);
   group.layers_present = cuboid.size.z;
+  for (const std::size_t level : options.levels) {
+    if (level >= group.levels.size()) {
+      throw InvalidRequest("--levels " + std::to_string(level) + ": there are levels 0 to " +
+                           std::to_string(group.levels.size() - 1));
+    }
+  }
   std::vector<PyramidLevel> levels;
   std::vector<Shards> shards;  // of each level; found before anything is written
   for (const LevelFactor& factor : group.levels) {
@@ -184,10 +190,12 @@ int main(int argc, char** argv) {
   app.add_option("--size", options.size, "Voxels: X,Y,Z")
       ->delimiter(',')
       ->expected(3)
+      ->check(CLI::Range(1, kMostVoxels))
       ->capture_default_str();
   app.add_option("--spacing", options.spacing, "Micrometres: X,Y,Z")
       ->delimiter(',')
       ->expected(3)
+      ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   app.add_option("--levels", options.levels, "Levels that hold anything")
       ->delimiter(',')

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -67,13 +66,17 @@ SectionPixels section_pixels(const NamedPlane& named, const Cuboid& cuboid, doub
   const std::vector<Vector3> polygon = section_polygon(plane, cuboid);
   // Measured from a vertex: a section along a layer then starts exactly at the sample's corner.
   const Vector3& corner = polygon.front();
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  double left = kFar, width_end = -kFar, top = kFar, height_end = -kFar;
+  double left = 0.0;
+  double right = 0.0;
+  double top = 0.0;
+  double bottom = 0.0;
   for (const Vector3& vertex : polygon) {
-    left = std::min(left, dot(vertex - corner, basis.p));
-    width_end = std::max(width_end, dot(vertex - corner, basis.p));
-    top = std::min(top, dot(vertex - corner, basis.q));
-    height_end = std::max(height_end, dot(vertex - corner, basis.q));
+    const double along_p = dot(vertex - corner, basis.p);
+    const double along_q = dot(vertex - corner, basis.q);
+    left = std::min(left, along_p);
+    right = std::max(right, along_p);
+    top = std::min(top, along_q);
+    bottom = std::max(bottom, along_q);
   }
   const auto count = [pixel](double length) {
     return static_cast<std::int64_t>(std::floor(length / pixel + kWholePixel)) + 1;
@@ -82,8 +85,8 @@ SectionPixels section_pixels(const NamedPlane& named, const Cuboid& cuboid, doub
           corner + left * basis.p + top * basis.q,
           pixel * basis.p,
           pixel * basis.q,
-          count(width_end - left),
-          count(height_end - top)};
+          count(right - left),
+          count(bottom - top)};
 }
 
 std::vector<ChunkPlace> touched_chunks(const SectionPixels& pixels, const PyramidLevel& level,

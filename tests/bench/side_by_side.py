@@ -36,6 +36,14 @@ def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
+def positive(text):
+    """A whole number above 0, for argparse."""
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
 def built(name, folder=PROGRAMS):
     """The path of a program of ours."""
     path = pathlib.Path(folder) / name
@@ -98,10 +106,13 @@ def write_planes(path, planes):
     return path
 
 
-def run(command, **keywords):
+def run(command):
     """The finished process; a failure carries the last line of its stderr."""
     command = [str(word) for word in command]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, **keywords)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise Failure(f"{command[0]} cannot be started: {error.strerror}") from error
     if done.returncode != 0:
         lines = done.stderr.strip().splitlines() or ["it says nothing"]
         raise Failure(f"{' '.join(command[:2])} … ended with {done.returncode}: {lines[-1]}")

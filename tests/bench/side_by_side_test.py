@@ -7,7 +7,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import side_by_side as bench  # noqa: E402
+import side_by_side as bench
 
 
 class Planes(unittest.TestCase):
