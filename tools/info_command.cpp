@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -30,12 +31,19 @@ nlohmann::json to_json(const SampleDescription& description, const SampleSummary
   const auto& layout = summary.layout;
   nlohmann::json volume;  // null without one
   if (summary.has_volume) {
+    nlohmann::json levels = nlohmann::json::array();
+    for (const auto& level : summary.levels) {
+      levels.push_back({{"size", {level.size.x, level.size.y, level.size.z}},
+                        {"spacing_um", {level.spacing.x, level.spacing.y, level.spacing.z}},
+                        {"origin_um", {level.origin.x, level.origin.y, level.origin.z}}});
+    }
     volume = {{"layers", summary.layers_in_volume},
               {"bytes", summary.volume_bytes},
               {"chunk", {layout.chunk[2], layout.chunk[1], layout.chunk[0]}},
               {"shard", {layout.shard[2], layout.shard[1], layout.shard[0]}},
               {"codec", layout.codec},
-              {"interleaved", layout.interleaved}};
+              {"interleaved", layout.interleaved},
+              {"levels", levels}};
   }
   return {{"name", description.name},
           {"created", description.created},
@@ -78,6 +86,12 @@ void print(const SampleDescription& description, const SampleSummary& summary) {
             << layout.chunk[1] << " × " << layout.chunk[0] << ", shards of " << layout.shard[2]
             << " × " << layout.shard[1] << " × " << layout.shard[0] << ", " << layout.codec << ", "
             << (layout.interleaved ? "interleaved" : "planar") << '\n';
+  for (std::size_t i = 0; i < summary.levels.size(); ++i) {
+    const auto& level = summary.levels[i];
+    std::cout << "  level " << i << "  " << level.size.x << " × " << level.size.y << " × "
+              << level.size.z << " voxels of " << level.spacing.x << " × " << level.spacing.y
+              << " × " << level.spacing.z << " µm\n";
+  }
 }
 
 void run(const Options& options) {

@@ -1,8 +1,10 @@
 #include "reconstruct/sample/image_import.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <future>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -32,7 +34,7 @@ constexpr std::size_t kCopiesInFlight = 3;
 constexpr std::size_t kBytesInFlight = 1024 * kMiB;
 constexpr std::size_t kBytesInFlightBesideABand = 512 * kMiB;
 constexpr std::size_t kBytesBehind = 256 * kMiB;
-constexpr int kThreadsBehind = 2;
+constexpr int kThreadsBehind = 4;  // that wait for the disk at the same time
 
 Vector3 spacing_of(const std::variant<VoxelSpacing, StackSize>& scale, const GridSize& size) {
   Vector3 spacing;
@@ -74,19 +76,24 @@ class ImportWork {
         volume_(partial.sample(), request.layout),
         image_bytes_(static_cast<std::size_t>(images.size().area()) *
                      static_cast<std::size_t>(images.bits() / 8) * 3),
-        bands_in_memory_(image_bytes_ * static_cast<std::size_t>(std::min<std::int64_t>(
-                                            volume_.band_depth(), images.count())) <=
-                         request.most_band_bytes) {}
+        band_bytes_(image_bytes_ * static_cast<std::size_t>(std::min<std::int64_t>(
+                                       volume_.band_depth(), images.count()))) {}
+  ~ImportWork() { abandoned_ = true; }
+  ImportWork(const ImportWork&) = delete;
+  ImportWork& operator=(const ImportWork&) = delete;
 
   void run() {
     for (std::int64_t first = 0; first < images_.count(); first += volume_.band_depth()) {
       const std::int64_t count =
           std::min<std::int64_t>(volume_.band_depth(), images_.count() - first);
-      const std::vector<cv::Mat> layers = store_layers(first, count);
+      std::vector<cv::Mat> layers = store_layers(first, count);
+      partial_.sync();
+      finish_band();
       if (volume_.layers_written() < first + count) {
-        append_band(first, count, layers);
+        append_band(first, count, std::move(layers));
       }
     }
+    finish_band();
     disk_.finish();
   }
 
@@ -94,7 +101,7 @@ class ImportWork {
   void stop_if_asked() const { stop_here_if(stop_, "the import was interrupted"); }
 
   std::size_t images_in_flight() const {
-    const std::size_t bytes = bands_in_memory_ ? kBytesInFlightBesideABand : kBytesInFlight;
+    const std::size_t bytes = bands_in_memory() ? kBytesInFlightBesideABand : kBytesInFlight;
     const auto threads = static_cast<std::size_t>(tbb::info::default_concurrency());
     return std::clamp<std::size_t>(bytes / (kCopiesInFlight * image_bytes_), 1, 2 * threads);
   }
@@ -125,7 +132,7 @@ class ImportWork {
         return;
       }
       store_file(layer, std::move(file));
-      if (bands_in_memory_) {
+      if (bands_in_memory()) {
         kept[static_cast<std::size_t>(place)] = image;
       }
     };
@@ -139,7 +146,7 @@ class ImportWork {
   void store_file(std::int64_t layer, std::vector<std::byte> file) {
     const std::size_t size = file.size();
     disk_.add(size, [this, layer, bytes = std::move(file)] {
-      write_durably(partial_.sample().layer_path(layer), bytes);
+      write_before_folder_sync(partial_.sample().layer_path(layer), bytes);
       const std::string hash = sha256(bytes);
       const std::scoped_lock lock(stored_mutex_);
       partial_.add_stored(layer, hash);
@@ -149,18 +156,25 @@ class ImportWork {
     });
   }
 
-  void append_band(std::int64_t first, std::int64_t count, const std::vector<cv::Mat>& layers) {
+  bool bands_in_memory() const { return band_bytes_ <= request_.most_band_bytes; }
+
+  /// Waits for the band that goes into the volume.
+  void finish_band() {
+    if (band_.valid()) {
+      band_.get();
+    }
+  }
+
+  void append_band(std::int64_t first, std::int64_t count, std::vector<cv::Mat> layers) {
     const bool in_memory = std::none_of(layers.begin(), layers.end(),
                                         [](const cv::Mat& layer) { return layer.empty(); });
     if (in_memory) {
-      volume_.append_band(count, [&](const cv::Rect& region) {
-        stop_if_asked();
-        std::vector<cv::Mat> parts;
-        for (const cv::Mat& layer : layers) {
-          parts.push_back(layer(region));
-        }
-        return parts;
+      band_ = std::async(std::launch::async, [this, count, images = std::move(layers)] {
+        append_images(count, images);
       });
+      if (2 * band_bytes_ > request_.most_band_bytes) {
+        finish_band();  // before the next one is read
+      }
       return;
     }
     disk_.finish();  // the layer files are read now
@@ -171,6 +185,20 @@ class ImportWork {
     });
   }
 
+  void append_images(std::int64_t count, const std::vector<cv::Mat>& images) {
+    volume_.append_band(count, [&](const cv::Rect& region) {
+      stop_if_asked();
+      if (abandoned_) {
+        throw Interrupted("the import has failed");  // which was told already
+      }
+      std::vector<cv::Mat> parts;
+      for (const cv::Mat& image : images) {
+        parts.push_back(image(region));
+      }
+      return parts;
+    });
+  }
+
   const ImageSequence& images_;
   const ImportRequest& request_;
   PartialImport& partial_;
@@ -178,9 +206,11 @@ class ImportWork {
   const StopRequested& stop_;
   VolumeWriter volume_;
   std::size_t image_bytes_;
-  bool bands_in_memory_;
+  std::size_t band_bytes_;
   std::mutex stored_mutex_;
   WriteBehind disk_{kBytesBehind, kThreadsBehind};
+  std::atomic<bool> abandoned_{false};
+  std::future<void> band_;  // the last band, on its way into the volume while the next is read
 };
 
 /// The end of the message when the work ends before its time. What holds no layer is removed.

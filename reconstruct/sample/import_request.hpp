@@ -35,8 +35,8 @@ struct ImportRequest {
   LayerFormat layer_format;
   VolumeLayout layout;
   bool restart = false;  ///< forget what an interrupted import of this output has done
-  /// The images of a band are kept for the volume when they are no larger together; otherwise the
-  /// band is read again from its layer files.
+  /// The images of a band are kept for the volume when they are no larger together (and two bands
+  /// at a time when both are); otherwise the band is read again from its layer files.
   std::size_t most_band_bytes = std::size_t{1} << 30;
 };
 

@@ -139,7 +139,10 @@ bool PartialImport::take_up(const json& asked) {
   sample_ = SampleFolder::open(folder_ / kSampleName);
   remove_unfinished_files(sample_->path());
   if (fs::exists(hashes_path(), error)) {
-    const std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
+    std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
+    std::erase_if(hashes, [&](const LayerHash& each) {
+      return !fs::exists(sample_->path() / each.file, error);  // its name did not reach the disk
+    });
     for (const LayerHash& each : hashes) {
       stored_[each.file] = each.sha256;
     }
@@ -171,14 +174,21 @@ void PartialImport::add_stored(std::int64_t layer, const std::string& sha256) {
   const LayerHash hash{file_of(*sample_, layer), sha256};
   const std::string line = layer_hash_lines({hash});
   const std::scoped_lock lock(mutex_);
-  if (::write(hashes_file_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
-      ::fdatasync(hashes_file_.get()) != 0) {
+  if (::write(hashes_file_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
     throw SampleError(hashes_path().string() + ": cannot write it: " + std::strerror(errno));
   }
   stored_[hash.file] = hash.sha256;
 }
 
+void PartialImport::sync() {
+  sync_folder(sample_->layer_path(1).parent_path());
+  if (::fdatasync(hashes_file_.get()) != 0) {
+    throw SampleError(hashes_path().string() + ": cannot write it: " + std::strerror(errno));
+  }
+}
+
 fs::path PartialImport::finish() {
+  sync();
   std::vector<LayerHash> hashes;
   for (const auto& [file, sha256] : stored_) {
     hashes.push_back({file, sha256});

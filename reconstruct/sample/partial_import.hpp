@@ -34,8 +34,13 @@ class PartialImport {
   bool is_stored(std::int64_t layer) const;
   std::int64_t stored_layers() const;
 
-  /// The layer's file is stored durably: writes that down, durably too. Safe for many threads.
+  /// The layer's file is whole on the disk and has its name: writes that down. What a crash takes
+  /// away of the names or of these records since the last `sync` is imported again. Safe for many
+  /// threads.
   void add_stored(std::int64_t layer, const std::string& sha256);
+
+  /// From here on no crash takes away what was stored before.
+  void sync();
 
   /// Gives the sample its hashes and its final name.
   std::filesystem::path finish();

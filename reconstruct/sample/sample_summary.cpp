@@ -43,6 +43,9 @@ SampleSummary summarise(const SampleFolder& sample) {
       summary.has_volume = true;
       summary.layers_in_volume = volume.layers_present();
       summary.layout = volume.layout();
+      for (int level = 0; level < volume.levels(); ++level) {
+        summary.levels.push_back(volume.level(level));
+      }
       summary.volume_bytes = bytes_below(sample.volume_path());
     }
   } catch (const fs::filesystem_error& error) {

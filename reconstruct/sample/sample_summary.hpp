@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
 
 namespace biotomy::reconstruct {
@@ -14,7 +16,8 @@ struct SampleSummary {
   bool has_volume = false;
   std::int64_t layers_in_volume = 0;
   std::uint64_t volume_bytes = 0;
-  VolumeLayout layout;  ///< of the volume, if there is one
+  VolumeLayout layout;               ///< of the volume, if there is one
+  std::vector<PyramidLevel> levels;  ///< likewise
 };
 
 /// Looks at names and sizes and at the volume's metadata, not into images or chunks.

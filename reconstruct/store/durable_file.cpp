@@ -132,7 +132,6 @@ class TemporaryFile {
       fail(target_, "give the finished file its name", errno);
     }
     renamed_ = true;
-    sync_folder(folder_of(target_));
   }
 
  private:
@@ -145,6 +144,11 @@ class TemporaryFile {
 }  // namespace
 
 void write_durably(const fs::path& path, std::span<const std::byte> bytes) {
+  write_before_folder_sync(path, bytes);
+  sync_folder(folder_of(path));
+}
+
+void write_before_folder_sync(const fs::path& path, std::span<const std::byte> bytes) {
   TemporaryFile file(path);
   file.write_and_sync(bytes);
   file.rename_to_target();
@@ -163,6 +167,7 @@ std::string write_durably_verified(const fs::path& path, std::span<const std::by
                       ": what the disk gave back is not what was written; check the disk");
   }
   file.rename_to_target();
+  sync_folder(folder_of(path));
   return expected;
 }
 

@@ -13,6 +13,10 @@ namespace biotomy::reconstruct {
 void write_durably(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_durably(const std::filesystem::path& path, const std::string& text);
 
+/// As write_durably, without the last step: after a crash the name may hold the old content until
+/// sync_folder was called. For many files of one folder, which are then synced together.
+void write_before_folder_sync(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
 /// As write_durably, and what the disk gives back is compared before the file gets its name, so
 /// that the old content is lost only to a good copy of the new. Returns the SHA-256.
 std::string write_durably_verified(const std::filesystem::path& path,

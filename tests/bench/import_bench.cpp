@@ -144,7 +144,8 @@ int main(int argc, char** argv) {
   app.add_option("--side", options.side, "Their width and height");
   app.add_option("--format", options.format, "png or tif")->check(CLI::IsMember({"png", "tif"}));
   app.add_option("--noise", options.noise, "Standard deviation of the made-up camera's noise");
-  app.add_option("--rounds", options.rounds, "How often each is measured");
+  app.add_option("--rounds", options.rounds, "How often each is measured")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--output", options.output, "Where to work; a folder on the disk to be measured");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -99,6 +99,7 @@ TEST_F(Commands, InfoTellsPeopleAboutTheSample) {
   EXPECT_THAT(text, testing::HasSubstr("20 × 10 × 3"));
   EXPECT_THAT(text, testing::HasSubstr("3 of 3"));
   EXPECT_THAT(text, testing::HasSubstr("blosc-lz4"));
+  EXPECT_THAT(text, testing::HasSubstr("level 0  20 × 10 × 3 voxels of 10 × 20 × 30 µm"));
 }
 
 TEST_F(Commands, InfoTellsProgramsAboutTheSample) {
@@ -109,6 +110,8 @@ TEST_F(Commands, InfoTellsProgramsAboutTheSample) {
   EXPECT_EQ(info.at("layer_images").at("count"), 3);
   EXPECT_EQ(info.at("volume").at("layers"), 3);
   EXPECT_GT(info.at("volume").at("bytes"), 0);
+  EXPECT_EQ(info.at("volume").at("levels").size(), 1U);
+  EXPECT_EQ(info.at("volume").at("levels")[0].at("size"), nlohmann::json({20, 10, 3}));
 }
 
 TEST_F(Commands, InfoOfASampleWithoutAVolumeSaysSo) {

@@ -172,7 +172,7 @@ TEST_F(ImageImport, MakesTheSameAfterFaultsWhileLayersAreStored) {
       ++faults;
     }
   }
-  EXPECT_GT(faults, 2);
+  EXPECT_GT(faults, 1);  // at most 6 layers are stored before each
 }
 
 TEST_F(ImageImport, InterruptedBeforeTheFirstLayerLeavesNothing) {

@@ -33,6 +33,12 @@ class APartialImport : public testing::Test {
   nlohmann::json asked() const {
     return import_record(ImageSequence::find({folder_.path()}), request_);
   }
+  /// As if the layer's image were stored.
+  static void store(PartialImport&& partial, std::int64_t layer) { store(partial, layer); }
+  static void store(PartialImport& partial, std::int64_t layer) {
+    write_text(partial.sample().layer_path(layer), "an image");
+    partial.add_stored(layer, kHash);
+  }
   PartialImport take(bool restart = false) const {
     return {output_, description_, asked(), restart};
   }
@@ -51,7 +57,7 @@ TEST_F(APartialImport, RemembersTheLayersThatAreStored) {
   {
     PartialImport partial = take();
     EXPECT_EQ(partial.stored_layers(), 0);
-    partial.add_stored(2, kHash);
+    store(partial, 2);
   }
   const PartialImport again = take();
   EXPECT_EQ(again.stored_layers(), 1);
@@ -61,23 +67,29 @@ TEST_F(APartialImport, RemembersTheLayersThatAreStored) {
 }
 
 TEST_F(APartialImport, DoesNotCountALayerWhoseRecordWasCutOff) {
-  take().add_stored(1, kHash);
+  store(take(), 1);
   const auto hashes = folder_ / "out" / ".knee.partial" / "layers.sha256";
   const auto size = std::filesystem::file_size(hashes);
   std::filesystem::resize_file(hashes, size - 3);
   {
     PartialImport again = take();
     EXPECT_EQ(again.stored_layers(), 0);
-    again.add_stored(1, kHash);
+    store(again, 1);
   }
   EXPECT_EQ(std::filesystem::file_size(hashes), size);
   EXPECT_EQ(take().stored_layers(), 1);
 }
 
+TEST_F(APartialImport, DoesNotCountALayerWhoseFileACrashTookAway) {
+  store(take(), 1);
+  std::filesystem::remove(folder_ / "out" / ".knee.partial" / "sample" / "layers" / "000001.tif");
+  EXPECT_EQ(take().stored_layers(), 0);
+}
+
 TEST_F(APartialImport, BecomesTheOutputWithTheHashesInOrder) {
   PartialImport partial = take();
-  partial.add_stored(2, kHash);
-  partial.add_stored(1, kHash);
+  store(partial, 2);
+  store(partial, 1);
   EXPECT_EQ(partial.finish(), output_);
   EXPECT_THAT(names(), ElementsAre("knee"));
   const auto hashes = read_file(output_ / "layers.sha256");
@@ -92,7 +104,7 @@ TEST_F(APartialImport, KeepsASecondOneAwayWhileItIsAtWork) {
 }
 
 TEST_F(APartialImport, TellsInWhatAnotherRequestDiffersAndOffersToBeginAnew) {
-  take().add_stored(1, kHash);
+  store(take(), 1);
   const ImportRequest begun = request_;
   request_.scale = VoxelSpacing{{1, 2, 4}};
   EXPECT_THAT(refusal(), AllOf(HasSubstr("spacing"), HasSubstr("--restart")));
@@ -117,18 +129,18 @@ TEST_F(APartialImport, TellsInWhatAnotherRequestDiffersAndOffersToBeginAnew) {
 }
 
 TEST_F(APartialImport, RemovesFilesThatWereNotFinishedWhenItWasKilled) {
-  take().add_stored(1, kHash);
+  store(take(), 1);
   const auto sample = folder_ / "out" / ".knee.partial" / "sample";
   std::filesystem::create_directories(sample / "volume.ome.zarr" / "0" / "c");
   write_text(sample / "layers" / ".000002.tif.12-3", "half");
   write_text(sample / "volume.ome.zarr" / "0" / "c" / ".0.12-4", "half");
   take();
-  EXPECT_TRUE(names_in(sample / "layers").empty());
+  EXPECT_THAT(names_in(sample / "layers"), ElementsAre("000001.tif"));
   EXPECT_TRUE(names_in(sample / "volume.ome.zarr" / "0" / "c").empty());
 }
 
 TEST_F(APartialImport, DoesNotMindAnotherTimeOfBeginning) {
-  take().add_stored(1, kHash);
+  store(take(), 1);
   request_.created = "2026-01-02T03:04:05Z";
   EXPECT_EQ(take().stored_layers(), 1);
 }
@@ -150,12 +162,12 @@ TEST_F(APartialImport, RefusesAnOutputThatIsThereAndRemovesWhatIsLeftOfItsImport
 }
 
 TEST_F(APartialImport, IsTheSameForANameWithASlashAtItsEnd) {
-  take().add_stored(1, kHash);
+  store(take(), 1);
   EXPECT_EQ(PartialImport(output_ / "", description_, asked(), false).stored_layers(), 1);
 }
 
 TEST_F(APartialImport, NamesARequestThatIsDamaged) {
-  take().add_stored(1, kHash);
+  store(take(), 1);
   write_text(folder_ / "out" / ".knee.partial" / "request.json", "{");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("request.json"), HasSubstr("--restart")));
 }
