@@ -125,8 +125,7 @@ PixelGrid grid_of(const NamedPlane& named, const Cuboid& cuboid) {
   const auto unit = [](const Vector3& v) { return (1.0 / norm(v)) * v; };
   const Vector3 u = unit(b - a);
   const Vector3 v = cross(unit(cross(u, c - a)), u);
-  const auto rectangle =
-      theta_rectangle(ThetaKind::bounding, section_polygon(plane, cuboid), {u, v});
+  const auto rectangle = theta_rectangle(theta::Bounding{}, section_polygon(plane, cuboid), {u, v});
   return pixel_grid(rectangle, 1.0, 3, std::int64_t{1} << 33);
 }
 
