@@ -94,7 +94,10 @@ json group_json(const std::vector<ExportedLevel>& levels, const std::string& nam
                                         {"name", name},
                                         {"axes", axes},
                                         {"datasets", datasets},
-                                        {"type", "mean"}}})},
+                                        {"type", "mean"},
+                                        {"metadata",
+                                         {{"method", "mean of neighbouring voxels"},
+                                          {"version", "Biotomy " BIOTOMY_VERSION}}}}})},
           {"omero", {{"channels", channels}, {"rdefs", {{"model", "color"}}}}}};
 }
 
