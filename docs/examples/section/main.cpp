@@ -12,10 +12,10 @@
 #include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/section/cached_volume.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/store/volume.hpp"
 
 namespace rc = biotomy::reconstruct;
@@ -36,7 +36,7 @@ void cut(const char* sample, const char* points, const char* picture) {
   const rc::SectionBasis basis = rc::section_basis(rc::BasisKind::layer, plane);
 
   // Decoded chunks are kept for the next section; 256 MB of them here.
-  rc::CachedVolume source(volume, 256'000'000);
+  rc::VolumeBricks source(volume, 256'000'000);
   const rc::Section section = rc::cut_section(source, {plane, basis, style});
 
   const rc::PixelGrid& grid = section.outline.grid;
