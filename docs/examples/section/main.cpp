@@ -40,7 +40,7 @@ void cut(const char* sample, const char* points, const char* picture) {
   const rc::Section section = rc::cut_section(source, {plane, basis, style});
 
   const rc::PixelGrid& grid = section.outline.grid;
-  rc::write_section_image(picture, section.image, grid.pixel);
+  rc::write_section_image(picture, section.image, rc::PictureNotes{grid.pixel, "", ""});
 
   // Where the picture is: pixel (u, v) lies at origin + u·pixel·p + v·pixel·q.
   const rc::Vector3& origin = grid.rectangle.origin;
