@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -88,7 +88,7 @@ class PictureSampler {
     if (levels.part > 0.0) {
       sample_level(levels.finer + 1, levels.part, result.image);
     }
-    result.statistics.chunks_touched = static_cast<std::int64_t>(touched_.size());
+    result.statistics.chunks_touched = chunks_touched_;
     result.statistics.finest_level = levels.finer;
     result.statistics.levels = levels.part > 0.0 ? 2 : 1;
     result.statistics.sample_s =
@@ -117,6 +117,9 @@ class PictureSampler {
         cv::addWeighted(rows, 1.0 - part, coarse, part, 0.0, rows);
       }
     }
+    std::sort(touched_.begin(), touched_.end());
+    chunks_touched_ += std::unique(touched_.begin(), touched_.end()) - touched_.begin();
+    touched_.clear();
   }
 
   Strip plan_strip(int level, int first_row, const cv::Size& tile) {
@@ -130,10 +133,14 @@ class PictureSampler {
                            std::min(row + tile.height, strip.last_row)});
         }
       }
-      std::vector<PictureRow> rows;
-      for (int row = strip.first_row; row < strip.last_row; ++row) {
-        rows.emplace_back(source_, level, grid_, row);
-      }
+      std::vector<PictureRow> rows(static_cast<std::size_t>(strip.last_row - strip.first_row));
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), kTileRows),
+                        [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                            rows[i] = PictureRow(source_, level, grid_,
+                                                 strip.first_row + static_cast<int>(i));
+                          }
+                        });
       std::vector<std::optional<TilePlan>> plans(tiles.size());
       tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
         const Tile& each = tiles[i];
@@ -161,9 +168,7 @@ class PictureSampler {
     const auto start = Clock::now();
     const std::vector<TexelBrick> bricks = source_.bricks(strip.level, strip.bricks);
     fetching_ += Clock::now() - start;
-    for (const ChunkIndex& brick : strip.bricks) {
-      touched_.insert({strip.level, brick});
-    }
+    touched_.insert(touched_.end(), strip.bricks.begin(), strip.bricks.end());
     tbb::parallel_for(std::size_t{0}, strip.tiles.size(), [&](std::size_t i) {
       const TilePlan& plan = strip.tiles[i];
       std::vector<const std::byte*> texels;
@@ -182,7 +187,9 @@ class PictureSampler {
   std::array<Level, 3> background_{};
   int rows_ = kStripRows;  // of a strip
   tbb::enumerable_thread_specific<TileSampler<Level>> samplers_;
-  std::set<std::pair<int, ChunkIndex>> touched_;
+  std::vector<ChunkIndex>
+      touched_;  // of the level at hand; neighbouring strips have some in common
+  std::int64_t chunks_touched_ = 0;  // of all levels, each once
   Clock::duration fetching_{0};
 };
 
