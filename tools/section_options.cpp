@@ -32,7 +32,7 @@ void add_section_options(CLI::App& command, SectionOptions& options) {
                   "The rectangle of the picture: bounding, inscribed, inscribed-any, edge:I or "
                   "custom:X,Y,Z,W,H,ANGLE")
       ->capture_default_str();
-  command.add_option("--interpolation", options.interpolation, "nearest or linear")
+  command.add_option("--interpolation", options.interpolation, "nearest, linear or cubic")
       ->capture_default_str();
   command.add_option("--pixel", options.pixel, "Size of a pixel; the least spacing if none");
   command.add_option("--background", options.background, "Colour outside the sample, R,G,B")
