@@ -16,7 +16,7 @@
 #include <zlib.h>
 
 #include "reconstruct/picture/png_filter.hpp"
-#include "reconstruct/picture/run_deflate.hpp"
+#include "reconstruct/picture/strip_deflate.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -149,7 +149,7 @@ Strip encode_strip(const cv::Mat& rgb, int first, int end) {
       strip.chunk.push_back(static_cast<std::byte>(byte));
     }
   }
-  deflate_runs(filtered, end == rgb.rows, strip.chunk);
+  deflate_strip(filtered, end == rgb.rows, strip.chunk);
   end_chunk(strip.chunk);
   strip.chunk.shrink_to_fit();  // all strips are in memory together
   return strip;

@@ -6,7 +6,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "reconstruct/picture/run_deflate.hpp"
+#include "reconstruct/picture/strip_deflate.hpp"
 #include "reconstruct/sample/tiff_file.hpp"
 
 namespace biotomy::reconstruct {
@@ -41,7 +41,7 @@ std::vector<Bytes> encode_strips(const cv::Mat& rgb, int rows) {
     const int first = static_cast<int>(number) * rows;
     const int end = std::min(first + rows, rgb.rows);
     strips[number] =
-        zlib_stream_of_runs(rgb.depth() == CV_8U ? predicted_rows<std::uint8_t>(rgb, first, end)
+        zlib_stream(rgb.depth() == CV_8U ? predicted_rows<std::uint8_t>(rgb, first, end)
                                                  : predicted_rows<std::uint16_t>(rgb, first, end));
   });
   return strips;
