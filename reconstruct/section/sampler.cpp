@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kTileColumns = 256;
+constexpr int kTileColumns = kMostPixels;
 constexpr int kTileRows = 16;
 constexpr int kStripRows = 128;
 constexpr int kLeastStripRows = 8;
@@ -32,21 +32,23 @@ double step_between(const VoxelRow& a, const VoxelRow& b, std::size_t axis) {
   return std::abs(b.start[axis] - a.start[axis]);
 }
 
-/// Rows and columns of tiles, halved until the bricks around a tile make a small table, however
-/// many voxels a pixel spans.
+/// Rows and columns of tiles, halved until the bricks around a tile make a small table, and a row's
+/// positions in a tile can be counted, however many voxels a pixel spans.
 cv::Size tile_size(const BrickSource& source, int level, const PixelGrid& grid) {
   const VoxelRow row = voxel_row(grid, source.level(level), 0);
   const VoxelRow next = voxel_row(grid, source.level(level), 1);
   const std::array<int, 3> shape = source.brick_shape();
   cv::Size size(kTileColumns, kTileRows);
-  for (; size.height > 1; size = {size.width / 2, size.height / 2}) {
+  for (; size.width > 1; size = {size.width / 2, std::max(size.height / 2, 1)}) {
     double bricks = 1.0;
+    bool counts = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double voxels =
           size.width * std::abs(row.step[axis]) + size.height * step_between(row, next, axis) + 4.0;
       bricks *= voxels / shape[2 - axis] + 2.0;
+      counts = counts && size.width * std::abs(row.step[axis]) < kMostVoxels;
     }
-    if (bricks <= kBoxBricks) {
+    if (bricks <= kBoxBricks && counts) {
       break;
     }
   }

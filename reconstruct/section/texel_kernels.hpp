@@ -17,27 +17,51 @@ namespace biotomy::reconstruct {
 // one pass the second half would wait for the first at every step, as addresses that a vector has
 // computed reach the loads through memory.
 
-/// Positions within a brick in fixed point: an unsigned number of voxels with kFractionBits after
-/// the point. Whole steps are added to them, so nothing but the step's own rounding (2⁻²³ voxel at
-/// most) adds up, and a run is never longer than kLongestRun pixels.
+/// Positions are in fixed point: a number of voxels with kFractionBits after the point. Whole steps
+/// are added to them, so nothing but the step's own rounding (2⁻²³ voxel at most) adds up over the
+/// pixels that are placed together: up to kMostPixels, over up to kMostVoxels.
 inline constexpr int kFractionBits = 22;
-inline constexpr int kLongestBrickSide = 1 << (31 - kFractionBits);
-inline constexpr int kLongestRun = 256;
+inline constexpr int kMostPixels = 256;
+inline constexpr int kMostVoxels = (1 << (31 - kFractionBits)) - 2;
 
 /// Kernels work on whole vectors: so many places, and pixels, behind the last are read and written.
 inline constexpr std::size_t kRoomPixels = 16;
 
-/// Pixels of a row whose support lies in one brick (or, from one layer to the next, in two): pixel
-/// i lies at start + i·step. Bricks are laid out as TexelBlocks says.
-struct TexelRun {
-  const std::byte* upper = nullptr;  ///< texel (0, 0, 0) of the brick: where positions count from
-  const std::byte* lower = nullptr;  ///< the texel after it along z
-  int block_row_bytes = 0;           ///< as TexelBlocks says
+/// A row of pixels along one axis, among the voxels of a box of bricks.
+struct RowAxis {
+  std::int32_t start = 0;  ///< of pixel 0, in fixed point, from voxel `base` on
+  std::int32_t step = 0;
+  int base = 0;   ///< voxels are counted from the box's first one
+  int last = 0;   ///< the volume's last voxel: what is beyond it or before 0 is moved to the border
+  int first = 0;  ///< the volume's first voxel, likewise
+  int side = 1;   ///< of a brick
+  int slot_stride = 1;  ///< from a brick's number in the box to the next one's
+  int next = 1;  ///< 0 where all pixels lie on voxel centres: there is no neighbour to mix with
+};
+
+struct RowPath {
+  std::array<RowAxis, 3> axes;  ///< x, y, z
+  int block_row_bytes = 0;      ///< of a brick, as TexelBlocks says
   int layer_bytes = 0;
-  int next_row = 1;  ///< 0 where the pixels lie on voxel centres along y: no neighbour to mix with
-  std::array<std::uint32_t, 3> start{};  ///< x, y, z
-  std::array<std::int32_t, 3> step{};
-  int count = 0;  ///< up to kLongestRun
+};
+
+/// Which bricks the supports of a row's pixels lie in, for linear: the slot of the voxel at the
+/// whole parts of the position, and that of the voxel after it along all three axes.
+struct RowBricks {
+  std::vector<std::int32_t> near;
+  std::vector<std::int32_t> far;
+};
+void find_bricks(const RowPath& path, std::size_t count, RowBricks& bricks);
+
+/// Where the pixels' texels lie: of the pairs of texels at the whole part of y and the next (bit 0
+/// of the place in the arrays) and of z and the next (bit 1) the brick's slot and the bytes from
+/// its beginning. Where `parted` is not 0 the right texel of a pair is in another brick than the
+/// left.
+template <typename Level>
+struct RowTexels {
+  std::array<std::vector<std::int32_t>, 4> slots;
+  std::array<std::vector<std::int32_t>, 4> offsets;
+  std::vector<std::int32_t> parted;
 };
 
 /// Where the pixels of a row lie, for the linear kernel: the pair of texels (at the whole part of x
@@ -75,9 +99,11 @@ struct PixelPlaces {
   }
 };
 
-/// The places of the run's pixels, from `first` on; up to kRoomPixels behind them are overwritten.
+/// Places a row: its texels (the pairs in the next layer only where `places.crosses` says that they
+/// are wanted), and the parts of `places`.
 template <typename Level>
-void place_run(const TexelRun& run, PixelPlaces<Level>& places, std::size_t first);
+void place_row(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
+               PixelPlaces<Level>& places);
 
 /// Trilinear. Radius 1 voxel, support 2, order 1 (continuous). Within ±1 level of exact arithmetic,
 /// and exactly the voxel's own colour at a voxel's centre. With 8 bits the arithmetic is of 16-bit

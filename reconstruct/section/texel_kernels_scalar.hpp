@@ -15,35 +15,63 @@
 
 namespace biotomy::reconstruct::scalar {
 
+/// A pixel along one axis.
+struct AxisPlace {
+  std::array<int, 2> brick{};  ///< of its voxel, and of the next
+  std::array<int, 2> texel{};
+  float part = 0.0F;
+};
+
+inline AxisPlace axis_place(const RowAxis& axis, std::size_t pixel) {
+  constexpr std::int32_t kUnit = 1 << kFractionBits;
+  const std::int32_t position = axis.start + static_cast<std::int32_t>(pixel) * axis.step;
+  const int voxel = axis.base + (position >> kFractionBits);
+  const int inside = std::clamp(voxel, axis.first, axis.last);
+  const int next = std::min(inside + axis.next, axis.last);
+  const bool mixes = voxel == inside && voxel < axis.last;
+  return {{inside / axis.side, next / axis.side},
+          {inside % axis.side, next % axis.side},
+          mixes ? static_cast<float>(position & (kUnit - 1)) / static_cast<float>(kUnit) : 0.0F};
+}
+
+inline void find_bricks(const RowPath& path, std::size_t count, RowBricks& bricks) {
+  for (std::size_t i = 0; i < count; ++i) {
+    bricks.near[i] = 0;
+    bricks.far[i] = 0;
+    for (const RowAxis& axis : path.axes) {
+      const AxisPlace place = axis_place(axis, i);
+      bricks.near[i] += place.brick[0] * axis.slot_stride;
+      bricks.far[i] += place.brick[1] * axis.slot_stride;
+    }
+  }
+}
+
 template <typename Level>
-void place_run(const TexelRun& run, PixelPlaces<Level>& places, std::size_t first) {
+void place_row(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
+               PixelPlaces<Level>& places) {
   constexpr int kSide = TexelBlocks::kSide;
   constexpr int kTexel = TexelBlocks::kColours * static_cast<int>(sizeof(Level));
   constexpr int kBlock = 64 * static_cast<int>(sizeof(Level));
-  constexpr std::uint32_t kUnit = 1U << kFractionBits;
-  const auto along_y = [&](int texel) {
-    return texel / kSide * run.block_row_bytes + texel % kSide * (kSide + 1) * kTexel;
-  };
-  for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
-    std::array<int, 3> texel{};
-    std::array<float, 3> part{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t position =
-          run.start[axis] +
-          static_cast<std::uint32_t>(i) * static_cast<std::uint32_t>(run.step[axis]);
-      texel[axis] = static_cast<int>(position >> kFractionBits);
-      part[axis] = static_cast<float>(position % kUnit) / static_cast<float>(kUnit);
+  const auto& [along_x, along_y, along_z] = path.axes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const AxisPlace x = axis_place(along_x, i);
+    const AxisPlace y = axis_place(along_y, i);
+    const AxisPlace z = axis_place(along_z, i);
+    for (std::size_t pair = 0; pair < 4; ++pair) {
+      const std::size_t row = pair % 2;
+      const std::size_t layer = pair / 2;
+      texels.slots[pair][i] = x.brick[0] * along_x.slot_stride +
+                              y.brick[row] * along_y.slot_stride +
+                              z.brick[layer] * along_z.slot_stride;
+      texels.offsets[pair][i] = x.texel[0] / kSide * kBlock + x.texel[0] % kSide * kTexel +
+                                y.texel[row] / kSide * path.block_row_bytes +
+                                y.texel[row] % kSide * (kSide + 1) * kTexel +
+                                z.texel[layer] * path.layer_bytes;
     }
-    const std::ptrdiff_t offset = texel[0] / kSide * kBlock + texel[0] % kSide * kTexel +
-                                  texel[2] * std::ptrdiff_t{run.layer_bytes};
-    for (int row = 0; row < 2; ++row) {
-      const std::ptrdiff_t to = offset + along_y(texel[1] + row * run.next_row);
-      places.upper[static_cast<std::size_t>(row)][first + i] = run.upper + to;
-      places.lower[static_cast<std::size_t>(row)][first + i] = run.lower + to;
-    }
-    places.x[first + i] = PixelPlaces<Level>::part(part[0]);
-    places.y[first + i] = PixelPlaces<Level>::part(part[1]);
-    places.z[first + i] = PixelPlaces<Level>::part(part[2]);
+    texels.parted[i] = x.brick[1] - x.brick[0];
+    places.x[i] = PixelPlaces<Level>::part(x.part);
+    places.y[i] = PixelPlaces<Level>::part(y.part);
+    places.z[i] = PixelPlaces<Level>::part(z.part);
   }
 }
 

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reconstruct/section/texel_kernels.hpp"
-
 namespace biotomy::reconstruct {
 namespace {
 
 constexpr double kUnit = static_cast<double>(1U << kFractionBits);
-constexpr int kMostTexels = kLongestBrickSide - 1;  // that a position can count
 constexpr float kBelowOne = 0x1.fffffep-1F;
-constexpr std::size_t kRunsOfARow = 12;  // of a usual tile, so that little has to grow
 
 std::array<int, 3> last_voxel(const PyramidLevel& level) {
   return {static_cast<int>(level.size.x - 1), static_cast<int>(level.size.y - 1),
@@ -32,12 +28,6 @@ void keep_inside(VoxelRow& place, const std::array<int, 3>& last) {
   }
 }
 
-/// Rounded up; of a number from 0 on, without the call of a function.
-int ceiling(double number) {
-  const int whole = static_cast<int>(number);
-  return static_cast<double>(whole) < number ? whole + 1 : whole;
-}
-
 }  // namespace
 
 PictureRow::PictureRow(const BrickSource& source, int level, const PixelGrid& grid, int number)
@@ -48,11 +38,7 @@ PictureRow::PictureRow(const BrickSource& source, int level, const PixelGrid& gr
   keep_inside(place, last_voxel(source.level(level)));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     on_centres[axis] = is_whole(place.start[axis]) && is_whole(place.step[axis]);
-    step[axis] = std::abs(place.step[axis]) < kMostTexels
-                     ? static_cast<std::int32_t>(std::round(place.step[axis] * kUnit))
-                     : 0;
   }
-  one_layer = place.step[2] == 0.0;
 }
 
 Support support_of(Interpolation kind) {
@@ -67,140 +53,40 @@ Support support_of(Interpolation kind) {
   return {1, 2, 0.0};
 }
 
-/// Follows a row along one axis: up to which column its pixels' support stays in one brick. Where
-/// that is is told by floating point, where the kernels are by fixed point; at the seam they may
-/// differ by a ten-thousandth of a voxel, so that a texel behind the brick's end, weighing nothing,
-/// may be read: bricks have room for that (TexelBlocks::slack).
-class TilePlan::Walk {
- public:
-  Walk() = default;
-  Walk(const VoxelPlaces& places, const Support& support, const PlannedRow& row, std::size_t axis,
-       int side, int last)
-      : places_(&places),
-        side_(side),
-        last_(last),
-        start_(row.place.start[axis] + support.shift),
-        step_(row.place.step[axis]),
-        inverse_step_(step_ != 0.0 ? 1.0 / step_ : 0.0) {
-    if (!row.on_centres[axis]) {
-      below_ = support.below;
-      above_ = support.above;
-    }
-    if (axis == 2 && row.one_layer && last > 0) {
-      may_cross_ = above_ == 1;
-    }
-  }
-
-  /// Moves on to `column`, which is not before the one of the last call.
-  void enter(int column) {
-    if (column < until_) {
-      return;
-    }
-    const double place = start_ + column * step_;
-    const int voxel = static_cast<int>(place);  // the whole part where it matters: above 0
-    until_ = column + 1;
-    free_ = false;
-    if (place < 0.0 || voxel > last_) {
-      return;
-    }
-    const VoxelPlaces::Place& at = places_->of(voxel);
-    slot_ = at.slot;
-    origin_ = voxel - at.texel;
-    const int low = origin_ + below_;
-    const int high = may_cross_ ? std::min(origin_ + side_, last_)
-                                : std::min(origin_ + side_, last_ + 1) - above_;
-    if (voxel < low || voxel >= high) {
-      return;
-    }
-    free_ = true;
-    crosses_ = may_cross_ && voxel + 1 == origin_ + side_;
-    if (step_ > 0.0) {
-      until_ = std::max(until_, ceiling(std::min<double>((high - start_) * inverse_step_, kNever)));
-    } else if (step_ < 0.0) {
-      const double last_column = std::min<double>((low - start_) * inverse_step_, kNever);
-      until_ = std::max(until_, static_cast<int>(last_column) + 1);
-    } else {
-      until_ = kNever;
-    }
-    if (std::abs(step_) >= kMostTexels) {
-      until_ = column + 1;  // a step too large for fixed point
-    }
-  }
-
-  bool free() const { return free_; }
-  int until() const { return until_; }  ///< the first column to which this does not apply
-  int slot() const { return slot_; }
-  bool crosses() const { return crosses_; }  ///< the support ends in the brick after
-
-  /// A texel from which positions in the brick can be counted at `column`: its first one, except in
-  /// bricks with very long sides. And the position.
-  int base(int column) const {
-    const int texel = static_cast<int>(start_ + column * step_) - origin_;
-    constexpr int kBlock = TexelBlocks::kSide;
-    return side_ > kMostTexels ? std::max(0, texel - kMostTexels / 2) / kBlock * kBlock : 0;
-  }
-  std::uint32_t position(int column, int base) const {
-    return static_cast<std::uint32_t>((start_ + column * step_ - origin_ - base) * kUnit);
-  }
-  /// How many columns from `column` on keep within what a position can count.
-  int reach(int column, int base) const {
-    if (side_ <= kMostTexels || step_ == 0.0) {
-      return kNever;
-    }
-    const double texel = start_ + column * step_ - origin_ - base;
-    const double room = step_ > 0.0 ? kMostTexels - 1 - texel : texel;
-    return std::max(1, static_cast<int>(std::min<double>(room * std::abs(inverse_step_), kNever)));
-  }
-
- private:
-  static constexpr int kNever = 1 << 30;
-  static int clamped(double column) { return static_cast<int>(std::min<double>(column, kNever)); }
-
-  const VoxelPlaces* places_ = nullptr;
-  int side_ = 0;
-  int last_ = 0;
-  double start_ = 0.0;
-  double step_ = 0.0;
-  double inverse_step_ = 0.0;
-  int below_ = 0;
-  int above_ = 0;
-  bool may_cross_ = false;
-
-  int until_ = -1;
-  bool free_ = false;
-  bool crosses_ = false;
-  int slot_ = 0;
-  int origin_ = 0;
-};
-
 TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, const Tile& tile,
                    std::span<const PictureRow> rows)
     : tile_(tile),
       support_(support_of(kind)),
-      linear_(kind == Interpolation::linear),
       blocks_(source.brick_shape(), source.bits()),
       shape_{source.brick_shape()[2], source.brick_shape()[1], source.brick_shape()[0]},
-      last_(last_voxel(source.level(level))) {
-  rows_.reserve(rows.size());
-  runs_.reserve(kRunsOfARow * rows.size());
-  patches_.reserve(kRunsOfARow * rows.size());
-  for (const PictureRow& row : rows) {
-    PlannedRow part{row};
-    part.inside.first = std::clamp(row.inside.first, tile.columns.first, tile.columns.last);
-    part.inside.last = std::clamp(row.inside.last, part.inside.first, tile.columns.last);
-    rows_.push_back(part);
+      last_(last_voxel(source.level(level))),
+      rows_(rows.begin(), rows.end()) {
+  for (PictureRow& row : rows_) {
+    row.inside.first = std::clamp(row.inside.first, tile.columns.first, tile.columns.last);
+    row.inside.last = std::clamp(row.inside.last, row.inside.first, tile.columns.last);
   }
-  set_places();
-  for (PlannedRow& row : rows_) {
-    plan_row(row);
+  set_box();
+  const std::size_t width =
+      static_cast<std::size_t>(tile.columns.last - tile.columns.first) + kRoomPixels;
+  row_bricks_.near.resize(width);
+  row_bricks_.far.resize(width);
+  for (const PictureRow& row : rows_) {
+    if (row.inside.first == row.inside.last) {
+      continue;
+    }
+    if (kind == Interpolation::linear) {
+      need_linear(row);
+    } else {
+      need_supports(row);
+    }
   }
 }
 
 // The bricks around the tile's pixels and their support.
-void TilePlan::set_places() {
+void TilePlan::set_box() {
   std::array<int, 3> low = last_;
   std::array<int, 3> high{};
-  for (const PlannedRow& row : rows_) {
+  for (const PictureRow& row : rows_) {
     if (row.inside.first == row.inside.last) {
       continue;
     }
@@ -227,100 +113,95 @@ void TilePlan::set_places() {
   bricks_at_.assign(static_cast<std::size_t>(slots), -1);
 }
 
-int TilePlan::need(int slot) {
-  int& place = bricks_at_[static_cast<std::size_t>(slot)];
-  if (place < 0) {
-    place = static_cast<int>(bricks_.size());
-    const int layer = brick_count_[0] * brick_count_[1];
-    bricks_.push_back({first_brick_[2] + slot / layer,
-                       first_brick_[1] + slot % layer / brick_count_[0],
-                       first_brick_[0] + slot % brick_count_[0]});
+RowPath TilePlan::path(const PictureRow& row) const {
+  RowPath path;
+  path.block_row_bytes = blocks_.block_row_bytes();
+  path.layer_bytes = blocks_.layer_bytes();
+  int slot_stride = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double first = row.place.at(static_cast<int>(axis), row.inside.first);
+    const double last = row.place.at(static_cast<int>(axis), row.inside.last - 1);
+    const double base = std::floor(std::min(first, last));
+    const int box_voxel = first_brick_[axis] * shape_[axis];
+    const double step = std::abs(row.place.step[axis]) < kMostVoxels ? row.place.step[axis] : 0.0;
+    path.axes[axis] = {static_cast<std::int32_t>((first - base) * kUnit),
+                       static_cast<std::int32_t>(std::lround(step * kUnit)),
+                       static_cast<int>(base) - box_voxel,
+                       last_[axis] - box_voxel,
+                       -box_voxel,
+                       shape_[axis],
+                       slot_stride,
+                       row.on_centres[axis] ? 0 : 1};
+    slot_stride *= brick_count_[axis];
   }
-  return place;
+  return path;
 }
 
-void TilePlan::plan_row(PlannedRow& row) {
-  std::array<Walk, 3> walks;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    walks[axis] = Walk(places_[axis], support_, row, axis, shape_[axis], last_[axis]);
+/// The bricks of the box whose corners are these two slots.
+void TilePlan::need_between(int near, int far) {
+  if (near == far && bricks_at_[static_cast<std::size_t>(near)] >= 0) {
+    return;
   }
-  auto& [x, y, z] = walks;
-  row.first_run = runs_.size();
-  row.first_patch = patches_.size();
-  for (int column = row.inside.first; column < row.inside.last;) {
-    if (!linear_) {
-      patches_.push_back(patch_of(row, column++));
-      continue;
-    }
-    x.enter(column);
-    y.enter(column);
-    z.enter(column);
-    if (x.free() && y.free() && z.free()) {
-      const int end = std::min({x.until(), y.until(), z.until(), row.inside.last});
-      runs_.push_back(run_of(row, walks, column, end));
-      column += runs_.back().count;
-    } else {
-      patches_.push_back(patch_of(row, column));
-      ++column;
-    }
-  }
-  row.crosses = z.crosses();
-  row.last_run = runs_.size();
-  row.last_patch = patches_.size();
-}
-
-PlannedRun TilePlan::run_of(const PlannedRow& row, const std::array<Walk, 3>& walks, int column,
-                            int end) {
-  PlannedRun run;
-  run.column = column;
-  run.count = std::min(end - column, kLongestRun);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    run.base[axis] = walks[axis].base(column);
-    run.start[axis] = walks[axis].position(column, run.base[axis]);
-    run.count = std::min(run.count, walks[axis].reach(column, run.base[axis]));
-  }
-  const int slot = walks[0].slot() + walks[1].slot() + walks[2].slot();
-  run.brick = need(slot);
-  run.lower_brick = run.brick;
-  if (row.one_layer) {
-    // The layer goes into the base, so that the one below may be in another brick.
-    run.base[2] += static_cast<int>(run.start[2] >> kFractionBits);
-    run.start[2] &= (1U << kFractionBits) - 1;
-    if (walks[2].crosses()) {
-      run.lower_brick = need(slot + brick_count_[0] * brick_count_[1]);
-      run.lower_z = 0;
-      return run;
-    }
-  }
-  run.lower_z = row.on_centres[2] ? run.base[2] : run.base[2] + 1;
-  return run;
-}
-
-PlannedPatch TilePlan::patch_of(const PlannedRow& row, int column) {
-  PlannedPatch patch;
-  patch.column = column;
-  std::array<int, 3> from{};
-  std::array<int, 3> to{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double place = std::clamp(row.place.at(static_cast<int>(axis), column), 0.0,
-                                    static_cast<double>(last_[axis]));
-    const int middle = std::min(static_cast<int>(place + support_.shift), last_[axis]);
-    patch.first[axis] = middle - support_.below;
-    patch.part[axis] = std::min(static_cast<float>(place - static_cast<int>(place)), kBelowOne);
-    const bool mixes = !row.on_centres[axis];
-    from[axis] = places_[axis].of(mixes ? middle - support_.below : middle).slot;
-    to[axis] = places_[axis].of(mixes ? middle + support_.above : middle).slot;
-  }
-  const int row_stride = brick_count_[0];
-  const int layer_stride = brick_count_[0] * brick_count_[1];
-  for (int z = from[2]; z <= to[2]; z += layer_stride) {
-    for (int y = from[1]; y <= to[1]; y += row_stride) {
-      for (int x = from[0]; x <= to[0]; ++x) {
-        need(x + y + z);
+  const int row = brick_count_[0];
+  const int layer = brick_count_[0] * brick_count_[1];
+  for (int z = near / layer; z <= far / layer; ++z) {
+    for (int y = near % layer / row; y <= far % layer / row; ++y) {
+      for (int x = near % row; x <= far % row; ++x) {
+        std::int32_t& place = bricks_at_[static_cast<std::size_t>(z * layer + y * row + x)];
+        if (place < 0) {
+          place = static_cast<std::int32_t>(bricks_.size());
+          bricks_.push_back({first_brick_[2] + z, first_brick_[1] + y, first_brick_[0] + x});
+        }
       }
     }
   }
-  return patch;
+}
+
+void TilePlan::need_linear(const PictureRow& row) {
+  const auto count = static_cast<std::size_t>(row.inside.last - row.inside.first);
+  find_bricks(path(row), count, row_bricks_);
+  int near = -1;
+  int far = -1;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (row_bricks_.near[i] != near || row_bricks_.far[i] != far) {
+      near = row_bricks_.near[i];
+      far = row_bricks_.far[i];
+      need_between(near, far);
+    }
+  }
+}
+
+void TilePlan::need_supports(const PictureRow& row) {
+  int near = -1;
+  int far = -1;
+  for (int column = row.inside.first; column < row.inside.last; ++column) {
+    const PixelSupport support = support_at(row, column);
+    int first = 0;
+    int last = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int middle = support.first[axis] + support_.below;
+      const bool mixes = !row.on_centres[axis];
+      first += places_[axis].of(mixes ? support.first[axis] : middle).slot;
+      last += places_[axis].of(mixes ? middle + support_.above : middle).slot;
+    }
+    if (first != near || last != far) {
+      near = first;
+      far = last;
+      need_between(near, far);
+    }
+  }
+}
+
+PixelSupport TilePlan::support_at(const PictureRow& row, int column) const {
+  PixelSupport support;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double place = std::clamp(row.place.at(static_cast<int>(axis), column), 0.0,
+                                    static_cast<double>(last_[axis]));
+    support.first[axis] =
+        std::min(static_cast<int>(place + support_.shift), last_[axis]) - support_.below;
+    support.part[axis] = std::min(static_cast<float>(place - static_cast<int>(place)), kBelowOne);
+  }
+  return support;
 }
 
 }  // namespace biotomy::reconstruct

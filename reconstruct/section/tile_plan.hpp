@@ -10,11 +10,12 @@
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
 #include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/section/texel_kernels.hpp"
 #include "reconstruct/section/voxel_places.hpp"
 
 namespace biotomy::reconstruct {
 
-/// A piece of a picture.
+/// A piece of a picture, up to kMostPixels wide.
 struct Tile {
   ColumnRange columns;
   int first_row = 0;
@@ -32,51 +33,25 @@ struct Support {
 };
 Support support_of(Interpolation kind);
 
-/// Neighbouring pixels of a row, to be mixed linearly, whose whole support lies in one brick, or,
-/// where the row stays between two layers, in one and the one below it.
-struct PlannedRun {
-  int column = 0;
-  int count = 0;
-  int brick = 0;              ///< place in TilePlan::bricks()
-  int lower_brick = 0;        ///< that holds the layer after the pixels'
-  std::array<int, 3> base{};  ///< texel of the brick, x, y, z, from which positions are counted
-  int lower_z = 0;            ///< the layer of the lower brick
-  std::array<std::uint32_t, 3> start{};  ///< in fixed point, from `base`
-};
-
-/// A pixel whose texels are gathered one by one: its support lies in several bricks, or beyond the
-/// border of the volume, where the border's texels go on; or it is not mixed linearly.
-struct PlannedPatch {
-  int column = 0;
-  std::array<int, 3> first{};   ///< voxel of the support, x, y, z; also outside the volume
-  std::array<float, 3> part{};  ///< the pixel's place between the middle voxels, below 1
-};
-
 /// A row of the picture among the voxels of a level.
 struct PictureRow {
   int row = 0;
-  ColumnRange inside;                  ///< columns in the cuboid
-  VoxelRow place;                      ///< in voxels of the level
-  std::array<bool, 3> on_centres{};    ///< all pixels lie on voxel centres along this axis
-  std::array<std::int32_t, 3> step{};  ///< in fixed point
-  bool one_layer = false;              ///< the row stays between two layers
+  ColumnRange inside;                ///< columns in the cuboid; of a tile's rows, also in the tile
+  VoxelRow place;                    ///< in voxels of the level
+  std::array<bool, 3> on_centres{};  ///< all pixels lie on voxel centres along this axis
 
   PictureRow() = default;
   PictureRow(const BrickSource& source, int level, const PixelGrid& grid, int number);
 };
 
-/// The part of a row that lies in a tile, its pixels in runs and patches.
-struct PlannedRow : PictureRow {
-  bool crosses = false;  ///< the layer after the pixels' is in the bricks below
-  std::size_t first_run = 0;
-  std::size_t last_run = 0;
-  std::size_t first_patch = 0;
-  std::size_t last_patch = 0;
+/// The support of one pixel.
+struct PixelSupport {
+  std::array<int, 3> first{};   ///< voxel, x, y, z; also outside the volume
+  std::array<float, 3> part{};  ///< the pixel's place between the middle voxels, below 1
 };
 
-/// How a tile will be sampled from one level: which bricks it needs, and which pixels can be read
-/// straight through a brick. Made without any brick, so that all that a part of the picture needs
-/// can be fetched at once.
+/// How a tile will be sampled from one level: where its pixels lie, and which bricks they need.
+/// Made without any brick, so that all that a part of the picture needs can be fetched at once.
 class TilePlan {
  public:
   /// `rows` are those of the tile.
@@ -85,45 +60,44 @@ class TilePlan {
 
   const Tile& tile() const { return tile_; }
   const Support& support() const { return support_; }
-  const std::vector<PlannedRow>& rows() const { return rows_; }
-  const std::vector<PlannedRun>& runs() const { return runs_; }
-  const std::vector<PlannedPatch>& patches() const { return patches_; }
+  const std::vector<PictureRow>& rows() const { return rows_; }
 
   /// The bricks that are needed, each once.
   const std::vector<ChunkIndex>& bricks() const { return bricks_; }
 
-  /// Where the voxels around the tile lie: x, y, z. The sum of the slots of a voxel's three places
-  /// is its brick's slot.
+  /// All slots of the box of bricks around the tile; the place in bricks() of the one at a slot, −1
+  /// where it is not needed.
+  const std::vector<std::int32_t>& bricks_at() const { return bricks_at_; }
+
+  /// A row's way through the box, for the linear kernels.
+  RowPath path(const PictureRow& row) const;
+
+  /// One pixel's support, and where its voxels lie: x, y, z. The sum of the slots of a voxel's
+  /// three places is its brick's slot, the sum of the offsets its place there.
+  PixelSupport support_at(const PictureRow& row, int column) const;
   const std::array<VoxelPlaces, 3>& places() const { return places_; }
 
-  /// The place in bricks() of the one at a slot.
-  int brick_at(int slot) const { return bricks_at_[static_cast<std::size_t>(slot)]; }
-
   const TexelBlocks& blocks() const { return blocks_; }
+  int side_x() const { return shape_[0]; }  ///< of a brick
 
  private:
-  class Walk;
-
-  void set_places();
-  void plan_row(PlannedRow& row);
-  PlannedRun run_of(const PlannedRow& row, const std::array<Walk, 3>& walks, int column, int end);
-  PlannedPatch patch_of(const PlannedRow& row, int column);
-  int need(int slot);
+  void set_box();
+  void need_linear(const PictureRow& row);
+  void need_supports(const PictureRow& row);
+  void need_between(int near, int far);
 
   Tile tile_;
   Support support_;
-  bool linear_;
   TexelBlocks blocks_;
-  std::array<int, 3> shape_{};
-  std::array<int, 3> last_{};  // voxel of the level
+  std::array<int, 3> shape_{};  // of a brick: x, y, z
+  std::array<int, 3> last_{};   // voxel of the level
   std::array<VoxelPlaces, 3> places_;
   std::array<int, 3> first_brick_{};
   std::array<int, 3> brick_count_{};
-  std::vector<int> bricks_at_;  // by slot; −1: not needed
+  std::vector<std::int32_t> bricks_at_;
   std::vector<ChunkIndex> bricks_;
-  std::vector<PlannedRow> rows_;
-  std::vector<PlannedRun> runs_;
-  std::vector<PlannedPatch> patches_;
+  std::vector<PictureRow> rows_;
+  RowBricks row_bricks_;  // working memory
 };
 
 }  // namespace biotomy::reconstruct

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kPixelLevels = 4;
 constexpr std::size_t kVectorBytes = 64;
-constexpr std::size_t kPixelsOfALine = 2;  // at least: a line holds a block of 4 × 4 texels
+constexpr std::size_t kPixelsOfALine = 2;  // at least: a line of memory holds 4 × 4 texels
 
 template <typename Level>
 void paint(Level* rgb, int count, const std::array<Level, 3>& colour) {
@@ -18,47 +18,40 @@ void paint(Level* rgb, int count, const std::array<Level, 3>& colour) {
   }
 }
 
-TexelRun texel_run(const TexelBlocks& blocks, const PlannedRow& row, const PlannedRun& run,
-                   const std::byte* upper, const std::byte* lower) {
-  const std::ptrdiff_t in_layer = blocks.along_x(run.base[0]) + blocks.along_y(run.base[1]);
-  return {upper + in_layer + blocks.along_z(run.base[2]),
-          lower + in_layer + blocks.along_z(run.lower_z),
-          blocks.block_row_bytes(),
-          blocks.layer_bytes(),
-          row.on_centres[1] ? 0 : 1,
-          run.start,
-          row.step,
-          run.count};
-}
-
-std::size_t inside_count(const PlannedRow& row) {
+std::size_t inside_count(const PictureRow& row) {
   return static_cast<std::size_t>(row.inside.last - row.inside.first);
 }
 
-}  // namespace
-
-template <typename Level>
-const std::byte* TileSampler<Level>::brick(int place) const {
-  const std::byte* texels = bricks_[static_cast<std::size_t>(place)];
-  return texels != nullptr ? texels : fill_value_.data();
+/// Whether the voxels after the pixels' along z are in the same brick as theirs all along the row.
+bool stays_in_a_layer_of_bricks(const RowAxis& z) {
+  if (z.step != 0) {
+    return false;
+  }
+  const int voxel = z.base + (z.start >> kFractionBits);
+  return voxel >= z.first && voxel < z.last && voxel % z.side + z.next < z.side;
 }
+
+}  // namespace
 
 // While a row is sampled the memory of the next is on its way.
 template <typename Level>
 void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* const> bricks,
                               const std::array<Level, 3>& background, int first_row,
                               cv::Mat& picture) {
-  bricks_ = bricks;
   if (fill_value_.empty() && std::find(bricks.begin(), bricks.end(), nullptr) != bricks.end()) {
     fill_value_.resize(plan.blocks().brick_bytes() + plan.blocks().slack());
   }
-  const ColumnRange columns = plan.tile().columns;
-  const auto width = static_cast<std::size_t>(columns.last - columns.first);
-  row_.resize(kPixelLevels * (width + kRoomPixels));
-  for (RowPlaces& places : places_) {
-    places.runs.resize(width);
+  bricks_.assign(plan.bricks_at().size(), nullptr);
+  for (std::size_t slot = 0; slot < bricks_.size(); ++slot) {
+    const std::int32_t place = plan.bricks_at()[slot];
+    if (place >= 0) {
+      const std::byte* texels = bricks[static_cast<std::size_t>(place)];
+      bricks_[slot] = texels != nullptr ? texels : fill_value_.data();
+    }
   }
-  const std::vector<PlannedRow>& rows = plan.rows();
+  const ColumnRange columns = plan.tile().columns;
+  resize(static_cast<std::size_t>(columns.last - columns.first));
+  const std::vector<PictureRow>& rows = plan.rows();
   for (std::size_t i = 0; i <= rows.size(); ++i) {
     if (i < rows.size()) {
       place_row(plan, rows[i], places_[i % 2]);
@@ -66,95 +59,132 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
     if (i == 0) {
       continue;
     }
-    const PlannedRow& row = rows[i - 1];
+    const PictureRow& row = rows[i - 1];
     sample_row(plan, row, places_[(i - 1) % 2]);
     auto* out = picture.ptr<Level>(row.row - first_row);
     paint(out + 3 * std::ptrdiff_t{columns.first}, row.inside.first - columns.first, background);
-    pack_pixels(
-        row_.data() + kPixelLevels * static_cast<std::size_t>(row.inside.first - columns.first),
-        inside_count(row), out + 3 * std::ptrdiff_t{row.inside.first});
+    pack_pixels(row_.data(), inside_count(row), out + 3 * std::ptrdiff_t{row.inside.first});
     paint(out + 3 * std::ptrdiff_t{row.inside.last}, columns.last - row.inside.last, background);
   }
 }
 
 template <typename Level>
-void TileSampler<Level>::place_row(const TilePlan& plan, const PlannedRow& row,
-                                   RowPlaces& places) const {
-  if (row.first_run != row.last_run) {
-    place_runs(plan, row, places.runs);
+void TileSampler<Level>::resize(std::size_t width) {
+  row_.resize(kPixelLevels * (width + kRoomPixels));
+  for (RowPlaces& places : places_) {
+    places.pairs.resize(width);
   }
-  switch (kind_) {
-    case Interpolation::nearest:
-      place_patches<1>(plan, row, places.texels);
-      break;
-    case Interpolation::linear:
-      place_patches<2>(plan, row, places.texels);
-      break;
-    case Interpolation::cubic:
-      place_patches<4>(plan, row, places.texels);
-      break;
+  for (std::size_t pair = 0; pair < row_texels_.slots.size(); ++pair) {
+    row_texels_.slots[pair].resize(width + kRoomPixels);
+    row_texels_.offsets[pair].resize(width + kRoomPixels);
+  }
+  row_texels_.parted.resize(width + kRoomPixels);
+}
+
+template <typename Level>
+void TileSampler<Level>::place_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places) {
+  places.gathered.clear();
+  if (inside_count(row) == 0) {
+    return;
+  }
+  if (kind_ == Interpolation::linear) {
+    place_pairs(plan, row, places);
+    place_parted(plan, inside_count(row), places);
+    return;
+  }
+  for (std::size_t i = 0; i < inside_count(row); ++i) {
+    places.gathered.push_back(i);
+  }
+  if (kind_ == Interpolation::nearest) {
+    place_supports<1>(plan, row, places);
+  } else {
+    place_supports<4>(plan, row, places);
   }
 }
 
 template <typename Level>
-void TileSampler<Level>::place_runs(const TilePlan& plan, const PlannedRow& row,
-                                    PixelPlaces<Level>& places) const {
-  places.crosses = row.crosses;
-  places.down = row.on_centres[2] ? 0 : plan.blocks().layer_bytes();
-  for (std::size_t i = row.first_run; i < row.last_run; ++i) {
-    const PlannedRun& run = plan.runs()[i];
-    place_run(texel_run(plan.blocks(), row, run, brick(run.brick), brick(run.lower_brick)), places,
-              static_cast<std::size_t>(run.column - row.inside.first));
-  }
-  // Patches are mixed along with everything, at a place where there is something, and then
-  // overwritten; likewise what lies behind the row's end.
-  const auto anywhere =
-      static_cast<std::size_t>(plan.runs()[row.first_run].column - row.inside.first);
-  const auto stand_in = [&](std::size_t pixel) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      places.upper[i][pixel] = places.upper[i][anywhere];
-      places.lower[i][pixel] = places.lower[i][anywhere];
-    }
+void TileSampler<Level>::place_pairs(const TilePlan& plan, const PictureRow& row,
+                                     RowPlaces& places) {
+  const std::size_t count = inside_count(row);
+  const RowPath path = plan.path(row);
+  PixelPlaces<Level>& pairs = places.pairs;
+  pairs.crosses = !stays_in_a_layer_of_bricks(path.axes[2]);
+  pairs.down = path.axes[2].next * std::ptrdiff_t{path.layer_bytes};
+  reconstruct::place_row(path, count, row_texels_, pairs);
+  const auto texel = [&](std::size_t pair, std::size_t i) {
+    return bricks_[static_cast<std::size_t>(row_texels_.slots[pair][i])] +
+           row_texels_.offsets[pair][i];
   };
-  for (std::size_t i = row.first_patch; i < row.last_patch; ++i) {
-    stand_in(static_cast<std::size_t>(plan.patches()[i].column - row.inside.first));
+  for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
+    const std::size_t pixel = std::min(i, count - 1);  // behind the last: again
+    pairs.upper[0][i] = texel(0, pixel);
+    pairs.upper[1][i] = texel(1, pixel);
   }
-  for (std::size_t i = 0; i < kRoomPixels; ++i) {
-    stand_in(inside_count(row) + i);
+  if (pairs.crosses) {
+    for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
+      const std::size_t pixel = std::min(i, count - 1);
+      pairs.lower[0][i] = texel(2, pixel);
+      pairs.lower[1][i] = texel(3, pixel);
+    }
   }
   // The lines of memory that the pixels lie in are asked for now, so that they are there when it is
   // the row's turn: a section has no pattern that the processor could foresee. (Not in a function
   // of its own, which GCC would take for one without an effect.)
-  for (std::size_t i = 0; i < inside_count(row); i += kPixelsOfALine) {
+  for (std::size_t i = 0; i < count; i += kPixelsOfALine) {
     for (std::size_t j = 0; j < 2; ++j) {
-      const std::byte* upper = places.upper[j][i];
+      const std::byte* upper = pairs.upper[j][i];
       __builtin_prefetch(upper);
-      __builtin_prefetch(places.crosses ? places.lower[j][i] : upper + places.down);
+      __builtin_prefetch(pairs.crosses ? pairs.lower[j][i] : upper + pairs.down);
     }
   }
 }
 
-/// The texels of each patch's support, x fastest, then y, then z.
+/// The texels of pixels whose left texel is the last of a brick's row and whose right one the first
+/// of the next brick's, x fastest, then y, then z.
+template <typename Level>
+void TileSampler<Level>::place_parted(const TilePlan& plan, std::size_t count,
+                                      RowPlaces& places) const {
+  places.texels.clear();
+  const std::ptrdiff_t row_of_brick = plan.blocks().along_x(plan.side_x() - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (row_texels_.parted[i] == 0) {
+      continue;
+    }
+    places.gathered.push_back(i);
+    for (std::size_t pair = 0; pair < 4; ++pair) {
+      const bool below = pair >= 2 && !places.pairs.crosses;
+      const auto slot = static_cast<std::size_t>(row_texels_.slots[below ? pair - 2 : pair][i]);
+      const std::ptrdiff_t offset =
+          row_texels_.offsets[below ? pair - 2 : pair][i] + (below ? places.pairs.down : 0);
+      places.texels.push_back(bricks_[slot] + offset);
+      places.texels.push_back(bricks_[slot + 1] + (offset - row_of_brick));
+      __builtin_prefetch(places.texels.back());
+    }
+  }
+}
+
+/// The texels of each gathered pixel's support, x fastest, then y, then z.
 template <typename Level>
 template <int width>
-void TileSampler<Level>::place_patches(const TilePlan& plan, const PlannedRow& row,
-                                       std::vector<const std::byte*>& texels) const {
+void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& row,
+                                        RowPlaces& places) const {
   constexpr std::size_t kTexels = std::size_t{width} * width * width;
-  texels.resize((row.last_patch - row.first_patch) * kTexels);
-  const std::byte** out = texels.data();
-  for (std::size_t i = row.first_patch; i < row.last_patch; ++i) {
-    const PlannedPatch& patch = plan.patches()[i];
+  places.texels.resize(places.gathered.size() * kTexels);
+  const std::byte** out = places.texels.data();
+  for (const std::size_t pixel : places.gathered) {
+    const PixelSupport at = plan.support_at(row, row.inside.first + static_cast<int>(pixel));
     std::array<std::array<VoxelPlaces::Place, width>, 3> support;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (int j = 0; j < width; ++j) {
-        const int voxel = patch.first[axis] + (row.on_centres[axis] ? plan.support().below : j);
+        const int voxel = at.first[axis] + (row.on_centres[axis] ? plan.support().below : j);
         support[axis][static_cast<std::size_t>(j)] = plan.places()[axis].of(voxel);
       }
     }
     for (const VoxelPlaces::Place& z : support[2]) {
       for (const VoxelPlaces::Place& y : support[1]) {
         for (const VoxelPlaces::Place& x : support[0]) {
-          *out = brick(plan.brick_at(x.slot + y.slot + z.slot)) + (x.offset + y.offset + z.offset);
+          *out = bricks_[static_cast<std::size_t>(x.slot + y.slot + z.slot)] +
+                 (x.offset + y.offset + z.offset);
           __builtin_prefetch(*out++);
         }
       }
@@ -163,76 +193,85 @@ void TileSampler<Level>::place_patches(const TilePlan& plan, const PlannedRow& r
 }
 
 template <typename Level>
-void TileSampler<Level>::sample_row(const TilePlan& plan, const PlannedRow& row,
+void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
                                     const RowPlaces& places) {
-  if (row.first_run != row.last_run) {
-    const auto first = static_cast<std::size_t>(row.inside.first - plan.tile().columns.first);
-    mix_linear(places.runs, inside_count(row), row_.data() + kPixelLevels * first);
-  }
-  if (row.first_patch == row.last_patch) {
+  if (inside_count(row) == 0) {
     return;
   }
-  if (kind_ == Interpolation::linear) {
-    mix_patches(plan, row, places.texels);
-    return;
-  }
-  constexpr std::size_t kCubicTexels = 64;
-  std::array<Level, kCubicTexels * kPixelLevels> support{};
-  const std::byte* const* texel = places.texels.data();
-  for (std::size_t i = row.first_patch; i < row.last_patch; ++i) {
-    const PlannedPatch& patch = plan.patches()[i];
-    if (kind_ == Interpolation::nearest) {
-      std::memcpy(pixel_of(plan, patch), *texel++, 3 * sizeof(Level));
-      continue;
-    }
-    for (std::size_t j = 0; j < kCubicTexels; ++j) {
-      std::memcpy(support.data() + kPixelLevels * j, *texel++, 3 * sizeof(Level));
-    }
-    mix_cubic(support.data(), patch.part, pixel_of(plan, patch));
+  switch (kind_) {
+    case Interpolation::nearest:
+      take_nearest(places);
+      break;
+    case Interpolation::linear:
+      mix_linear(places.pairs, inside_count(row), row_.data());
+      if (!places.gathered.empty()) {
+        mix_parted(places);
+      }
+      break;
+    case Interpolation::cubic:
+      mix_supports(plan, row, places);
+      break;
   }
 }
 
+// The texels of all of a row's parted pixels are gathered as the kernel wants to find them, and
+// mixed at once.
 template <typename Level>
-Level* TileSampler<Level>::pixel_of(const TilePlan& plan, const PlannedPatch& patch) {
-  return row_.data() +
-         kPixelLevels * static_cast<std::size_t>(patch.column - plan.tile().columns.first);
-}
-
-// The texels of all of a row's patches are gathered as the kernel wants to find them, and mixed at
-// once.
-template <typename Level>
-void TileSampler<Level>::mix_patches(const TilePlan& plan, const PlannedRow& row,
-                                     const std::vector<const std::byte*>& texels) {
+void TileSampler<Level>::mix_parted(const RowPlaces& places) {
   constexpr std::size_t kTexels = 8;
   constexpr std::size_t kTexel = 3 * sizeof(Level);
   constexpr std::size_t kPair = 8 * sizeof(Level);
-  constexpr std::size_t kPatch = 4 * kPair;
-  const std::size_t count = row.last_patch - row.first_patch;
-  gathered_.resize(count * kPatch + kVectorBytes);
-  mixed_.resize(kPixelLevels * (count + kRoomPixels));
-  patch_places_.resize(count);
-  patch_places_.down = 2 * kPair;
+  constexpr std::size_t kSupport = 4 * kPair;
+  const std::size_t count = places.gathered.size();
+  parted_texels_.resize(count * kSupport + kVectorBytes);
+  parted_pixels_.resize(kPixelLevels * (count + kRoomPixels));
+  parted_places_.resize(count);
+  parted_places_.down = 2 * kPair;
   for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
-    const std::size_t each = std::min(i, count - 1);  // behind the last: again
-    std::byte* const support = gathered_.data() + each * kPatch;
-    patch_places_.upper[0][i] = support;
-    patch_places_.upper[1][i] = support + kPair;
+    std::byte* const support = parted_texels_.data() + std::min(i, count - 1) * kSupport;
+    parted_places_.upper[0][i] = support;
+    parted_places_.upper[1][i] = support + kPair;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const PlannedPatch& patch = plan.patches()[row.first_patch + i];
-    std::byte* const support = gathered_.data() + i * kPatch;
+    std::byte* const support = parted_texels_.data() + i * kSupport;
     for (std::size_t corner = 0; corner < kTexels; ++corner) {
-      std::memcpy(support + corner / 2 * kPair + corner % 2 * kTexel, texels[i * kTexels + corner],
-                  kTexel);
+      std::memcpy(support + corner / 2 * kPair + corner % 2 * kTexel,
+                  places.texels[i * kTexels + corner], kTexel);
     }
-    patch_places_.x[i] = PixelPlaces<Level>::part(patch.part[0]);
-    patch_places_.y[i] = PixelPlaces<Level>::part(patch.part[1]);
-    patch_places_.z[i] = PixelPlaces<Level>::part(patch.part[2]);
+    const std::size_t pixel = places.gathered[i];
+    parted_places_.x[i] = places.pairs.x[pixel];
+    parted_places_.y[i] = places.pairs.y[pixel];
+    parted_places_.z[i] = places.pairs.z[pixel];
   }
-  mix_linear(patch_places_, count, mixed_.data());
+  mix_linear(parted_places_, count, parted_pixels_.data());
   for (std::size_t i = 0; i < count; ++i) {
-    std::memcpy(pixel_of(plan, plan.patches()[row.first_patch + i]),
-                mixed_.data() + kPixelLevels * i, kPixelLevels * sizeof(Level));
+    std::memcpy(row_.data() + kPixelLevels * places.gathered[i],
+                parted_pixels_.data() + kPixelLevels * i, kPixelLevels * sizeof(Level));
+  }
+}
+
+template <typename Level>
+void TileSampler<Level>::take_nearest(const RowPlaces& places) {
+  for (std::size_t i = 0; i < places.gathered.size(); ++i) {
+    std::memcpy(row_.data() + kPixelLevels * i, places.texels[i], 3 * sizeof(Level));
+  }
+}
+
+template <typename Level>
+void TileSampler<Level>::mix_supports(const TilePlan& plan, const PictureRow& row,
+                                      const RowPlaces& places) {
+  constexpr std::size_t kTexels = 64;
+  std::array<Level, kTexels * kPixelLevels> support{};
+  const std::byte* const* texel = places.texels.data();
+  for (std::size_t i = 0; i < places.gathered.size(); ++i) {
+    for (std::size_t j = 0; j < kTexels; ++j) {
+      std::memcpy(support.data() + kPixelLevels * j, *texel++, 3 * sizeof(Level));
+    }
+    std::array<float, 3> part = plan.support_at(row, row.inside.first + static_cast<int>(i)).part;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      part[axis] = row.on_centres[axis] ? 0.0F : part[axis];
+    }
+    mix_cubic(support.data(), part, row_.data() + kPixelLevels * i);
   }
 }
 

@@ -27,31 +27,34 @@ class TileSampler {
             const std::array<Level, 3>& background, int first_row, cv::Mat& picture);
 
  private:
-  /// Where a row's pixels lie: those of its runs, and each texel of its patches' supports.
+  /// Where a row's pixels lie. Those whose texels are gathered one by one (linear: whose pair of
+  /// texels is parted between two bricks; others: all) are told by their number in the row.
   struct RowPlaces {
-    PixelPlaces<Level> runs;
-    std::vector<const std::byte*> texels;
+    PixelPlaces<Level> pairs;
+    std::vector<std::size_t> gathered;
+    std::vector<const std::byte*> texels;  // of the gathered ones' supports
   };
 
-  void place_row(const TilePlan& plan, const PlannedRow& row, RowPlaces& places) const;
-  void place_runs(const TilePlan& plan, const PlannedRow& row, PixelPlaces<Level>& places) const;
+  void resize(std::size_t width);
+  void place_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places);
+  void place_pairs(const TilePlan& plan, const PictureRow& row, RowPlaces& places);
+  void place_parted(const TilePlan& plan, std::size_t count, RowPlaces& places) const;
   template <int width>
-  void place_patches(const TilePlan& plan, const PlannedRow& row,
-                     std::vector<const std::byte*>& texels) const;
-  void sample_row(const TilePlan& plan, const PlannedRow& row, const RowPlaces& places);
-  void mix_patches(const TilePlan& plan, const PlannedRow& row,
-                   const std::vector<const std::byte*>& texels);
-  Level* pixel_of(const TilePlan& plan, const PlannedPatch& patch);
-  const std::byte* brick(int place) const;
+  void place_supports(const TilePlan& plan, const PictureRow& row, RowPlaces& places) const;
+  void sample_row(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
+  void mix_parted(const RowPlaces& places);
+  void take_nearest(const RowPlaces& places);
+  void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
 
   Interpolation kind_;
-  std::span<const std::byte* const> bricks_;
+  std::vector<const std::byte*> bricks_;  // by slot of the tile's box
   std::vector<std::byte> fill_value_;
   std::array<RowPlaces, 2> places_;  // of a row, and of the next
-  std::vector<Level> row_;           // pixels of the tile's columns
-  PixelPlaces<Level> patch_places_;
-  std::vector<std::byte> gathered_;  // supports of patches
-  std::vector<Level> mixed_;         // pixels of the patches
+  RowTexels<Level> row_texels_;
+  std::vector<Level> row_;  // pixels of the tile's columns
+  PixelPlaces<Level> parted_places_;
+  std::vector<std::byte> parted_texels_;
+  std::vector<Level> parted_pixels_;
 };
 
 }  // namespace biotomy::reconstruct
