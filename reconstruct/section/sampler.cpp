@@ -23,6 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTileColumns = kMostPixels;
+constexpr int kTileColumnsOf16Bits =
+    32;  // so that what the steps' rounding adds up stays below a level
 constexpr int kTileRows = 16;
 constexpr int kStripRows = 128;
 constexpr int kLeastStripRows = 8;
@@ -38,7 +40,7 @@ cv::Size tile_size(const BrickSource& source, int level, const PixelGrid& grid) 
   const VoxelRow row = voxel_row(grid, source.level(level), 0);
   const VoxelRow next = voxel_row(grid, source.level(level), 1);
   const std::array<int, 3> shape = source.brick_shape();
-  cv::Size size(kTileColumns, kTileRows);
+  cv::Size size(source.bits() == 16 ? kTileColumnsOf16Bits : kTileColumns, kTileRows);
   for (; size.width > 1; size = {size.width / 2, std::max(size.height / 2, 1)}) {
     double bricks = 1.0;
     bool counts = true;

@@ -38,8 +38,10 @@ template <typename Level>
 void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* const> bricks,
                               const std::array<Level, 3>& background, int first_row,
                               cv::Mat& picture) {
-  if (fill_value_.empty() && std::find(bricks.begin(), bricks.end(), nullptr) != bricks.end()) {
-    fill_value_.resize(plan.blocks().brick_bytes() + plan.blocks().slack());
+  const std::size_t brick_bytes = plan.blocks().brick_bytes() + TexelBlocks::slack();
+  if (fill_value_.size() < brick_bytes &&
+      std::find(bricks.begin(), bricks.end(), nullptr) != bricks.end()) {
+    fill_value_.resize(brick_bytes);
   }
   bricks_.assign(plan.bricks_at().size(), nullptr);
   for (std::size_t slot = 0; slot < bricks_.size(); ++slot) {

@@ -28,7 +28,7 @@ VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
     : volume_(volume),
       policy_(policy),
       blocks_(volume.layout().chunk, volume.bits()),
-      pool_(blocks_.brick_bytes(), blocks_.slack()),
+      pool_(blocks_.brick_bytes(), TexelBlocks::slack()),
       cache_(
           capacity_bytes, blocks_.brick_bytes(),
           [this](int level, std::span<const ChunkIndex> wanted) { return fetch(level, wanted); }) {}

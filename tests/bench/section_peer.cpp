@@ -95,7 +95,7 @@ class BricksInMemory final : public BrickSource {
   Cuboid cuboid_;
   PyramidLevel level_;
   TexelBlocks blocks_{{kSide, kSide, kSide}, 8};
-  BlockPool pool_{blocks_.brick_bytes(), blocks_.slack()};
+  BlockPool pool_{blocks_.brick_bytes(), TexelBlocks::slack()};
   std::vector<std::shared_ptr<std::byte>> bricks_;
 };
 

@@ -77,7 +77,8 @@ struct MemorySource final : reconstruct::BrickSource {
       }
     }
     const reconstruct::TexelBlocks blocks(chunk_size, bit_count);
-    auto texels = reconstruct::BlockPool(blocks.brick_bytes(), blocks.slack()).allocate();
+    auto texels =
+        reconstruct::BlockPool(blocks.brick_bytes(), reconstruct::TexelBlocks::slack()).allocate();
     blocks.lay_out(voxels, texels.get());
     return texels;
   }
