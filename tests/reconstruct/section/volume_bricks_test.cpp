@@ -1,6 +1,8 @@
 #include "reconstruct/section/volume_bricks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -108,7 +110,13 @@ TEST_P(VolumeWithATail, GivesTheSectionsOfTheVolumeThatHoldsTheSameLayers) {
          {Interpolation::nearest, Interpolation::linear, Interpolation::cubic}) {
       for (const double pixel : {7.0, 10.0, 33.0}) {
         const SectionRequest asked = request(normal, point, kind, pixel);
-        const Section section = cut_section(live, asked);
+        std::array<std::int64_t, 2> rows{};
+        const Section section =
+            cut_section(live, asked, [&](std::int64_t done, std::int64_t total) {
+              rows = {done, total};
+            });
+        const std::int64_t all = std::int64_t{section.image.rows} * section.statistics.levels;
+        EXPECT_EQ(rows, (std::array<std::int64_t, 2>{all, all}));
         EXPECT_TRUE(same_pixels(section.image, cut_section(expected, asked).image))
             << normal.x << normal.y << normal.z << " " << pixel;
         levels_read =
