@@ -52,7 +52,8 @@ nlohmann::json to_json(const SampleDescription& description, const SampleSummary
           {"spacing_um", {spacing.x, spacing.y, spacing.z}},
           {"bits", description.bits},
           {"layer_images", {{"count", summary.layer_images}, {"bytes", summary.layer_bytes}}},
-          {"volume", volume}};
+          {"volume", volume},
+          {"sections", {{"layers", summary.layers_in_sections}}}};
 }
 
 std::string mebibytes(std::uint64_t bytes) {
@@ -76,7 +77,8 @@ void print(const SampleDescription& description, const SampleSummary& summary) {
             << "extent    " << extent.x / 1000 << " × " << extent.y / 1000 << " × "
             << extent.z / 1000 << " mm between the outermost voxels' centres\n"
             << "layers    " << summary.layer_images << " of " << size.z << ", "
-            << mebibytes(summary.layer_bytes) << '\n';
+            << mebibytes(summary.layer_bytes) << '\n'
+            << "sections  reach layer " << summary.layers_in_sections << '\n';
   if (!summary.has_volume) {
     std::cout << "volume    none yet\n";
     return;

@@ -1,16 +1,16 @@
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/interruption.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -20,15 +20,17 @@
 #include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
+#include "tools/interruption.hpp"
+#include "tools/opened_sample.hpp"
 #include "tools/picture_options.hpp"
+#include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
 
 namespace biotomy::tools {
 namespace {
 
-using reconstruct::SampleFolder;
+using Clock = std::chrono::steady_clock;
 using reconstruct::Section;
-using reconstruct::Vector3;
 using reconstruct::Volume;
 using reconstruct::VolumeBricks;
 
@@ -50,9 +52,14 @@ std::int64_t peak_rss_bytes() {
   return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
+struct Durations {
+  std::chrono::duration<double> section;  // from opening the sample to the picture in memory
+  std::chrono::duration<double> encode;
+};
+
 // Reading, decoding and sampling go on in several threads at once: their seconds are the threads'
 // added up.
-void print_statistics(const Section& section, const Volume& volume, double encode_s) {
+void print_statistics(const Section& section, const Volume& volume, const Durations& durations) {
   const auto& read = volume.statistics();
   const nlohmann::ordered_json line{
       {"pixels", section.image.total()},
@@ -61,7 +68,8 @@ void print_statistics(const Section& section, const Volume& volume, double encod
       {"read_s", 1e-9 * static_cast<double>(read.read_ns.load())},
       {"decode_s", 1e-9 * static_cast<double>(read.decode_ns.load())},
       {"sample_s", section.statistics.sample_s},
-      {"encode_s", encode_s},
+      {"section_s", durations.section.count()},
+      {"encode_s", durations.encode.count()},
       {"peak_rss_bytes", peak_rss_bytes()},
   };
   std::cerr << line.dump() << '\n';
@@ -71,34 +79,53 @@ std::filesystem::path sidecar_of(std::filesystem::path picture) {
   return picture.replace_extension(".json");
 }
 
+/// The chunks are gone when it returns: encoding the picture needs the memory.
+Section cut(const OpenedSample& sample, const reconstruct::SectionRequest& request,
+            std::size_t cache_bytes, const std::string& output) {
+  VolumeBricks source(sample.volume, cache_bytes, {}, &sample.tail);
+  ProgressBar progress("Cutting", "rows");
+  return reconstruct::cut_section(source, request, [&](std::int64_t done, std::int64_t total) {
+    reconstruct::stop_here_if(&Interruption::requested,
+                              output + ": interrupted; the picture was not written");
+    progress.update(done, total);
+  });
+}
+
 void run_section(const SectionArguments& arguments, const CLI::App& command) {
+  const Interruption interruption;
   reconstruct::picture_format(arguments.output);
   const int quality = jpeg_quality(arguments.picture);
   const SectionChoices chosen = choices(arguments.options);
-  const SampleFolder sample = SampleFolder::open(arguments.sample);
-  const Volume volume = Volume::open(sample.volume_path());
-  const Vector3& spacing = volume.cuboid().spacing;
+  Durations durations;
+  auto start = Clock::now();
+  const OpenedSample sample(arguments.sample);
+  const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   const reconstruct::Plane plane =
-      reconstruct::parse_plane("--", arguments.plane, chosen.unit, spacing);
-
-  VolumeBricks source(volume, chosen.cache_bytes);
-  const Section section =
-      reconstruct::cut_section(source, {plane, reconstruct::section_basis(chosen.basis, plane),
-                                        style_for(chosen, arguments.options, spacing)});
-  const reconstruct::SectionRecord record{
-      sample.description().name, volume.cuboid(), plane, section.outline,
-      section.image.size(),      {0, 0},          {0},   command_parameters(command)};
-  const auto start = std::chrono::steady_clock::now();
+      reconstruct::parse_plane("--", arguments.plane, chosen.unit, cuboid.spacing);
+  const Section section = cut(sample,
+                              {plane, reconstruct::section_basis(chosen.basis, plane),
+                               style_for(chosen, arguments.options, cuboid.spacing)},
+                              chosen.cache_bytes, arguments.output);
+  durations.section = Clock::now() - start;
+  const reconstruct::SectionRecord record{sample.folder.description().name,
+                                          cuboid,
+                                          plane,
+                                          section.outline,
+                                          section.image.size(),
+                                          {0, 0},
+                                          reconstruct::levels_read(section.statistics),
+                                          command_parameters(command)};
+  start = Clock::now();
   reconstruct::write_section_image(arguments.output, section.image,
                                    reconstruct::picture_notes(record), quality);
-  const std::chrono::duration<double> encoding = std::chrono::steady_clock::now() - start;
+  durations.encode = Clock::now() - start;
   if (arguments.json) {
     reconstruct::write_durably(
         sidecar_of(arguments.output),
         reconstruct::json_text(reconstruct::to_json(record), kSidecarIndentation) + '\n');
   }
   if (arguments.stats) {
-    print_statistics(section, volume, encoding.count());
+    print_statistics(section, sample.volume, durations);
   }
 }
 

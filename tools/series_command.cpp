@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/section/film.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -19,10 +18,10 @@
 #include "reconstruct/section/series_folder.hpp"
 #include "reconstruct/section/series_frames.hpp"
 #include "reconstruct/section/volume_bricks.hpp"
-#include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"
+#include "tools/opened_sample.hpp"
 #include "tools/picture_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
@@ -134,23 +133,23 @@ std::vector<std::string> names_of(const Series& series, const std::string& exten
 
 /// All that makes the series what it is: two series of the same description have the same frames.
 /// A sample that is still being ground is another one with each layer.
-nlohmann::ordered_json describe(const reconstruct::SampleDescription& sample,
-                                const reconstruct::Volume& volume, const SeriesFrames& frames,
+nlohmann::ordered_json describe(const OpenedSample& sample, const SeriesFrames& frames,
                                 const std::vector<std::string>& names,
                                 const nlohmann::ordered_json& parameters) {
-  const auto& [size, spacing] = volume.cuboid();
+  const reconstruct::SampleDescription& description = sample.folder.description();
+  const auto& [size, spacing] = sample.volume.cuboid();
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < names.size(); ++i) {
     list.push_back({{"value", frames.series().frames[i].value}, {"file", names[i]}});
   }
   return {{"software", "Biotomy " BIOTOMY_VERSION},
           {"sample",
-           {{"name", sample.name},
-            {"created", sample.created},
+           {{"name", description.name},
+            {"created", description.created},
             {"size", {size.x, size.y, size.z}},
             {"spacing_um", {spacing.x, spacing.y, spacing.z}},
-            {"bits", volume.bits()},
-            {"layers_in_volume", volume.layers_present()}}},
+            {"bits", sample.volume.bits()},
+            {"layers", sample.tail.layers_present()}}},
           {"parameters", parameters},
           {"pixel_um", frames.pixel()},
           {"unit", frames.series().unit},
@@ -159,20 +158,18 @@ nlohmann::ordered_json describe(const reconstruct::SampleDescription& sample,
 
 /// What one frame's file says of it.
 reconstruct::PictureNotes notes_of(const SeriesFrames& frames, std::size_t index,
-                                   const std::string& sample, const reconstruct::Cuboid& cuboid,
+                                   const OpenedSample& sample,
+                                   const reconstruct::SampleStatistics& statistics,
                                    const nlohmann::ordered_json& parameters) {
+  const std::string& name = sample.folder.description().name;
   const auto& outline = frames.outline(index);
   if (!outline) {
-    return {frames.pixel(), sample, ""};
+    return {frames.pixel(), name, ""};
   }
-  return reconstruct::picture_notes({sample,
-                                     cuboid,
-                                     frames.series().frames[index].plane,
-                                     *outline,
-                                     frames.frame_size(),
-                                     frames.first_pixel(index),
-                                     {0},
-                                     parameters});
+  return reconstruct::picture_notes({name, sample.volume.cuboid(),
+                                     frames.series().frames[index].plane, *outline,
+                                     frames.frame_size(), frames.first_pixel(index),
+                                     reconstruct::levels_read(statistics), parameters});
 }
 
 void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeSeries make_series) {
@@ -184,17 +181,16 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   if (arguments.movie) {
     reconstruct::check_film_name(*arguments.movie);
   }
-  const auto sample = reconstruct::SampleFolder::open(arguments.sample);
-  const std::string& sample_name = sample.description().name;
-  const auto volume = reconstruct::Volume::open(sample.volume_path());
-  reconstruct::VolumeBricks source(volume, chosen.cache_bytes);
-  const SeriesFrames frames(source, make_series(arguments, chosen, volume.cuboid()),
-                            style_for(chosen, arguments.options, volume.cuboid().spacing),
+  const OpenedSample sample(arguments.sample);
+  const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
+  reconstruct::VolumeBricks source(sample.volume, chosen.cache_bytes, {}, &sample.tail);
+  const SeriesFrames frames(source, make_series(arguments, chosen, cuboid),
+                            style_for(chosen, arguments.options, cuboid.spacing),
                             !arguments.no_scale_bar);
   const nlohmann::ordered_json parameters = command_parameters(command);
   const std::vector<std::string> names = names_of(frames.series(), extension);
-  const reconstruct::SeriesFolder folder(
-      arguments.output, describe(sample.description(), volume, frames, names, parameters), names);
+  const reconstruct::SeriesFolder folder(arguments.output,
+                                         describe(sample, frames, names, parameters), names);
   std::optional<reconstruct::Film> film;
   if (arguments.movie) {
     film.emplace(*arguments.movie, rate, frames.frame_size());
@@ -210,10 +206,11 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
     }
     auto frame = folder.frame(i, frames.frame_size(), stored_type);
     if (!frame) {
-      frame = frames.draw(i);
-      reconstruct::write_section_image(
-          folder.frame_path(i), *frame,
-          notes_of(frames, i, sample_name, volume.cuboid(), parameters), quality);
+      const reconstruct::SampledImage drawn = frames.draw(i);
+      frame = drawn.image;
+      reconstruct::write_section_image(folder.frame_path(i), *frame,
+                                       notes_of(frames, i, sample, drawn.statistics, parameters),
+                                       quality);
     }
     if (film) {
       film->add(*frame);

@@ -195,6 +195,15 @@ fs::path SampleFolder::layer_path(std::int64_t layer) const {
   return path_ / kLayersName / name.data();
 }
 
+std::int64_t SampleFolder::layers_on_disk(std::int64_t first) const {
+  std::int64_t next = first;
+  std::error_code error;
+  while (next <= description_.cuboid.size.z && fs::is_regular_file(layer_path(next), error)) {
+    ++next;
+  }
+  return next - first;
+}
+
 fs::path SampleFolder::volume_path() const {
   return path_ / "volume.ome.zarr";
 }

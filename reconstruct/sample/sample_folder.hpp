@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -32,6 +33,10 @@ class SampleFolder {
 
   /// The image of a section number, from 1: `layers/000001.tif`.
   std::filesystem::path layer_path(std::int64_t layer) const;
+
+  /// How many layer images follow each other without a gap, the first of section number `first`.
+  std::int64_t layers_on_disk(std::int64_t first) const;
+
   std::filesystem::path volume_path() const;
   std::filesystem::path journal_path() const;
   /// The hashes of an imported sample's layers, `layers.sha256`.

@@ -48,6 +48,8 @@ SampleSummary summarise(const SampleFolder& sample) {
       }
       summary.volume_bytes = bytes_below(sample.volume_path());
     }
+    summary.layers_in_sections =
+        summary.layers_in_volume + sample.layers_on_disk(summary.layers_in_volume + 1);
   } catch (const fs::filesystem_error& error) {
     throw SampleError(sample.path().string() +
                       ": cannot be looked through: " + error.code().message());

@@ -16,8 +16,9 @@ struct SampleSummary {
   bool has_volume = false;
   std::int64_t layers_in_volume = 0;
   std::uint64_t volume_bytes = 0;
-  VolumeLayout layout;               ///< of the volume, if there is one
-  std::vector<PyramidLevel> levels;  ///< likewise
+  std::int64_t layers_in_sections = 0;  ///< those in the volume, and the images that follow them
+  VolumeLayout layout;                  ///< of the volume, if there is one
+  std::vector<PyramidLevel> levels;     ///< likewise
 };
 
 /// Looks at names and sizes and at the volume's metadata, not into images or chunks.

@@ -72,11 +72,10 @@ template <typename Level>
 class PictureSampler {
  public:
   PictureSampler(BrickSource& source, const PixelGrid& grid, Interpolation kind,
-                 const Colour& background)
-      : source_(source),
-        grid_(grid),
-        kind_(kind),
-        samplers_([kind] { return TileSampler<Level>(kind); }) {
+                 const Colour& background, const OnRows& on_rows)
+      : source_(source), grid_(grid), kind_(kind), on_rows_(on_rows), samplers_([kind] {
+          return TileSampler<Level>(kind);
+        }) {
     constexpr int kScale = sizeof(Level) == 1 ? 1 : 257;
     for (std::size_t colour = 0; colour < 3; ++colour) {
       background_[colour] = static_cast<Level>(background[colour] * kScale);
@@ -88,13 +87,14 @@ class PictureSampler {
     const LevelChoice levels = level_choice(source_, grid_.pixel, kind_);
     SampledImage result{cv::Mat(grid_.rows, grid_.columns, sizeof(Level) == 1 ? CV_8UC3 : CV_16UC3),
                         {}};
+    result.statistics.finest_level = levels.finer;
+    result.statistics.levels = levels.part > 0.0 ? 2 : 1;
+    rows_in_all_ = std::int64_t{grid_.rows} * result.statistics.levels;
     sample_level(levels.finer, 0.0, result.image);
     if (levels.part > 0.0) {
       sample_level(levels.finer + 1, levels.part, result.image);
     }
     result.statistics.chunks_touched = chunks_touched_;
-    result.statistics.finest_level = levels.finer;
-    result.statistics.levels = levels.part > 0.0 ? 2 : 1;
     result.statistics.sample_s =
         std::chrono::duration<double>(Clock::now() - start - fetching_).count();
     return result;
@@ -119,6 +119,10 @@ class PictureSampler {
         sample_strip(strip, strip.first_row, coarse);
         cv::Mat rows = picture.rowRange(strip.first_row, strip.last_row);
         cv::addWeighted(rows, 1.0 - part, coarse, part, 0.0, rows);
+      }
+      rows_done_ += strip.last_row - strip.first_row;
+      if (on_rows_) {
+        on_rows_(rows_done_, rows_in_all_);
       }
     }
     std::sort(touched_.begin(), touched_.end());
@@ -188,6 +192,9 @@ class PictureSampler {
   BrickSource& source_;
   const PixelGrid& grid_;
   Interpolation kind_;
+  const OnRows& on_rows_;
+  std::int64_t rows_done_ = 0;
+  std::int64_t rows_in_all_ = 0;
   std::array<Level, 3> background_{};
   int rows_ = kStripRows;  // of a strip
   tbb::enumerable_thread_specific<TileSampler<Level>> samplers_;
@@ -200,10 +207,10 @@ class PictureSampler {
 }  // namespace
 
 SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
-                         const Colour& background) {
+                         const Colour& background, const OnRows& on_rows) {
   return source.bits() == 16
-             ? PictureSampler<std::uint16_t>(source, grid, kind, background).sample()
-             : PictureSampler<std::uint8_t>(source, grid, kind, background).sample();
+             ? PictureSampler<std::uint16_t>(source, grid, kind, background, on_rows).sample()
+             : PictureSampler<std::uint8_t>(source, grid, kind, background, on_rows).sample();
 }
 
 }  // namespace biotomy::reconstruct

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 #include <opencv2/core/mat.hpp>
 
@@ -26,11 +27,16 @@ struct SampledImage {
   SampleStatistics statistics;
 };
 
+/// Is told how far a picture is. A picture that is mixed from two levels has its rows twice. What
+/// it throws ends the work.
+using OnRows = std::function<void(std::int64_t done, std::int64_t total)>;
+
 /// The colours of the source at the pixel centres of `grid`, from the levels that level_choice
 /// names; `background` where a centre is outside the cuboid by more than 10⁻⁶ voxel. Strips of the
 /// picture follow each other, the tiles of one are filled in parallel; the result does not depend
-/// on how. Throws what the source throws.
+/// on how. `on_rows` is called after each strip, by the caller's thread. Throws what the source and
+/// `on_rows` throw.
 SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
-                         const Colour& background);
+                         const Colour& background, const OnRows& on_rows = {});
 
 }  // namespace biotomy::reconstruct

@@ -25,10 +25,10 @@ SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequ
   return outline;
 }
 
-Section cut_section(BrickSource& source, const SectionRequest& request) {
+Section cut_section(BrickSource& source, const SectionRequest& request, const OnRows& on_rows) {
   SectionOutline outline = outline_section(source.cuboid(), source.bits(), request);
-  SampledImage sampled =
-      sample_grid(source, outline.grid, request.style.interpolation, request.style.background);
+  SampledImage sampled = sample_grid(source, outline.grid, request.style.interpolation,
+                                     request.style.background, on_rows);
   return {std::move(outline), std::move(sampled.image), sampled.statistics};
 }
 

@@ -48,7 +48,7 @@ struct Section {
 /// and what theta_rectangle throws.
 SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request);
 
-/// Throws what outline_section and the source throw.
-Section cut_section(BrickSource& source, const SectionRequest& request);
+/// Throws what outline_section and sample_grid throw.
+Section cut_section(BrickSource& source, const SectionRequest& request, const OnRows& on_rows = {});
 
 }  // namespace biotomy::reconstruct

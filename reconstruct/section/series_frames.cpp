@@ -95,15 +95,15 @@ cv::Point SeriesFrames::first_pixel(std::size_t index) const {
   return canvas_.place_of(size_of(outlines_.at(index).value()));
 }
 
-cv::Mat SeriesFrames::draw(std::size_t index) const {
+SampledImage SeriesFrames::draw(std::size_t index) const {
   const std::string label = frame_label(series_, index);
   const std::optional<SectionOutline>& outline = outlines_.at(index);
   if (!outline) {
-    return canvas_.draw_empty(frame_type(), label);
+    return {canvas_.draw_empty(frame_type(), label), {}};
   }
   const SampledImage sampled =
       sample_grid(source_, outline->grid, style_.interpolation, style_.background);
-  return canvas_.draw(sampled.image, label);
+  return {canvas_.draw(sampled.image, label), sampled.statistics};
 }
 
 }  // namespace biotomy::reconstruct

@@ -21,12 +21,24 @@ std::size_t voxels_of(const VolumeLayout& layout) {
          static_cast<std::size_t>(layout.chunk[2]);
 }
 
+/// Some of the chunks asked for.
+struct Part {
+  std::vector<ChunkIndex> chunks;
+  std::vector<std::size_t> places;  // in the order asked for
+
+  void add(ChunkIndex chunk, std::size_t place) {
+    chunks.push_back(chunk);
+    places.push_back(place);
+  }
+};
+
 }  // namespace
 
 VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
-                           const DamagePolicy& policy)
+                           const DamagePolicy& policy, const LayerTail* tail)
     : volume_(volume),
       policy_(policy),
+      tail_(tail),
       blocks_(volume.layout().chunk, volume.bits()),
       pool_(blocks_.brick_bytes(), TexelBlocks::slack()),
       cache_(
@@ -37,21 +49,39 @@ std::vector<TexelBrick> VolumeBricks::bricks(int level, std::span<const ChunkInd
   return cache_.get(level, wanted);
 }
 
+bool VolumeBricks::in_tail(int level, ChunkIndex index) const {
+  return tail_ != nullptr && tail_->touches(level, index);
+}
+
+// What the tail touches is not announced: it is made of images, not of the volume's chunks.
 void VolumeBricks::expect(int level, std::span<const ChunkIndex> soon) {
-  volume_.expect_chunks(level, cache_.missing(level, soon));
+  std::vector<ChunkIndex> missing = cache_.missing(level, soon);
+  std::erase_if(missing, [&](const ChunkIndex& index) { return in_tail(level, index); });
+  volume_.expect_chunks(level, missing);
 }
 
 std::vector<TexelBrick> VolumeBricks::fetch(int level, std::span<const ChunkIndex> wanted) {
   std::vector<TexelBrick> bricks(wanted.size());
-  const auto keep = [&](std::size_t which, std::span<const std::byte> voxels) {
-    bricks[which] = voxels.empty() ? nullptr : brick_of(voxels);
+  const auto fetch_from = [&](const auto& source, const Part& part) {
+    const auto keep = [&](std::size_t which, std::span<const std::byte> voxels) {
+      bricks[part.places[which]] = voxels.empty() ? nullptr : brick_of(voxels);
+    };
+    const auto replace = [&](std::size_t which, const SampleError& error) {
+      note_damage(error.what());
+      bricks[part.places[which]] = damaged_brick();
+    };
+    source.read_chunks(level, part.chunks, keep,
+                       policy_.tolerate ? Volume::OnDamage(replace) : Volume::OnDamage());
   };
-  const auto replace = [&](std::size_t which, const SampleError& error) {
-    note_damage(error.what());
-    bricks[which] = damaged_brick();
-  };
-  volume_.read_chunks(level, wanted, keep,
-                      policy_.tolerate ? Volume::OnDamage(replace) : Volume::OnDamage());
+  Part stored;
+  Part overlaid;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    (in_tail(level, wanted[i]) ? overlaid : stored).add(wanted[i], i);
+  }
+  fetch_from(volume_, stored);
+  if (!overlaid.chunks.empty()) {
+    fetch_from(*tail_, overlaid);
+  }
   return bricks;
 }
 

@@ -12,6 +12,7 @@
 #include "reconstruct/section/block_pool.hpp"
 #include "reconstruct/section/brick_cache.hpp"
 #include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/section/layer_tail.hpp"
 #include "reconstruct/section/texel_blocks.hpp"
 #include "reconstruct/store/volume.hpp"
 
@@ -29,10 +30,12 @@ struct Damage {
   std::string first;  ///< what was wrong with the first
 };
 
-/// A volume read through a cache of decoded bricks. The volume must outlive it.
+/// A volume read through a cache of decoded bricks, with the layers laid over it that are not in it
+/// yet, if a tail is given. Volume and tail must outlive it.
 class VolumeBricks final : public BrickSource {
  public:
-  VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy = {});
+  VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy = {},
+               const LayerTail* tail = nullptr);
 
   const Cuboid& cuboid() const override { return volume_.cuboid(); }
   int bits() const override { return volume_.bits(); }
@@ -46,6 +49,7 @@ class VolumeBricks final : public BrickSource {
   Damage damage() const;
 
  private:
+  bool in_tail(int level, ChunkIndex index) const;
   std::vector<TexelBrick> fetch(int level, std::span<const ChunkIndex> wanted);
   std::shared_ptr<std::byte> brick_of(std::span<const std::byte> voxels);
   std::shared_ptr<std::byte> damaged_brick();
@@ -53,6 +57,7 @@ class VolumeBricks final : public BrickSource {
 
   const Volume& volume_;
   DamagePolicy policy_;
+  const LayerTail* tail_;
   TexelBlocks blocks_;
   BlockPool pool_;
   BrickCache cache_;

@@ -250,6 +250,27 @@ Volume Volume::open(const std::filesystem::path& path) {
   return Volume(std::move(state));
 }
 
+Volume Volume::of_sample(const SampleFolder& sample) {
+  const std::filesystem::path path = sample.volume_path();
+  // A writer makes the metadata first, and its group last: shards without it are a damaged volume.
+  std::error_code error;
+  if (std::filesystem::exists(path / kMetadataName, error) ||
+      std::filesystem::exists(path / level_path(0) / "c", error)) {
+    return open(path);
+  }
+  const SampleDescription& description = sample.description();
+  ZarrArray array;
+  array.size = description.cuboid.size;
+  array.bits = description.bits;
+  VolumeMetadata metadata;
+  metadata.name = description.name;
+  metadata.spacing = description.cuboid.spacing;
+  metadata.bits = description.bits;
+  metadata.levels = pyramid_factors(description.cuboid, array.layout.chunk);
+  return Volume(std::make_unique<State>(std::make_unique<LocalObjectReader>(path),
+                                        std::move(metadata), array));
+}
+
 const Cuboid& Volume::cuboid() const {
   return state_->cuboid;
 }

@@ -11,6 +11,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/cuboid.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
 
@@ -44,6 +45,10 @@ class Volume {
  public:
   /// Throws SampleError when it is not a volume that can be read.
   static Volume open(const std::filesystem::path& path);
+
+  /// The sample's volume; one without any layers, of the default layout, when none has been begun.
+  static Volume of_sample(const SampleFolder& sample);
+
   ~Volume();
   Volume(Volume&&) noexcept;
 

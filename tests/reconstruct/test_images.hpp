@@ -47,21 +47,29 @@ inline void save_rgb(const std::filesystem::path& path, const cv::Mat& rgb) {
   cv::imwrite(path.string(), bgr);
 }
 
+/// Layer files `first` to `last`, each `test_image` with its number for a seed.
+inline void add_layers(const SampleFolder& sample, std::int64_t first, std::int64_t last) {
+  const auto& [size, spacing] = sample.description().cuboid;
+  const int type = sample.description().bits == 8 ? CV_8UC3 : CV_16UC3;
+  for (std::int64_t layer = first; layer <= last; ++layer) {
+    write_layer_image(sample.layer_path(layer),
+                      test_image(static_cast<int>(size.x), static_cast<int>(size.y), type,
+                                 static_cast<std::uint64_t>(layer)),
+                      {layer, spacing}, {});
+  }
+}
+
 /// A sample with the layer files 1 to `layers`, each `test_image` with its number for a seed.
 inline SampleFolder sample_with_layers(const std::filesystem::path& path, const GridSize& size,
-                                       int bits, std::int64_t layers) {
+                                       int bits, std::int64_t layers,
+                                       const Vector3& spacing = {10.0, 11.0, 50.0}) {
   SampleDescription description;
   description.name = "test";
   description.created = "2026-01-02T03:04:05Z";
   description.bits = bits;
-  description.cuboid = {size, {10.0, 11.0, 50.0}};
+  description.cuboid = {size, spacing};
   SampleFolder sample = SampleFolder::create(path, description);
-  for (std::int64_t layer = 1; layer <= layers; ++layer) {
-    write_layer_image(sample.layer_path(layer),
-                      test_image(static_cast<int>(size.x), static_cast<int>(size.y),
-                                 bits == 8 ? CV_8UC3 : CV_16UC3, static_cast<std::uint64_t>(layer)),
-                      {layer, description.cuboid.spacing}, {});
-  }
+  add_layers(sample, 1, layers);
   return sample;
 }
 

@@ -121,6 +121,20 @@ TEST_F(Commands, InfoOfASampleWithoutAVolumeSaysSo) {
   EXPECT_TRUE(nlohmann::json::parse(run({"info", sample_, "--json"})).at("volume").is_null());
 }
 
+TEST_F(Commands, InfoTellsHowFarSectionsReach) {
+  run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
+  const SampleFolder sample = SampleFolder::open(sample_);
+  const auto layers = [&] {
+    return nlohmann::json::parse(run({"info", sample_, "--json"})).at("sections").at("layers");
+  };
+  EXPECT_EQ(layers(), 3);
+  EXPECT_THAT(run({"info", sample_}), testing::HasSubstr("reach layer 3\n"));
+  std::filesystem::remove_all(sample.volume_path());
+  EXPECT_EQ(layers(), 3);
+  std::filesystem::remove(sample.layer_path(2));
+  EXPECT_EQ(layers(), 1);
+}
+
 TEST_F(Commands, InfoOfWhatIsNoSampleFails) {
   EXPECT_THROW(run({"info", folder_.path().string()}), reconstruct::SampleError);
 }

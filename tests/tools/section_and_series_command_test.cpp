@@ -37,6 +37,19 @@ nlohmann::json json_in(const fs::path& path) {
                                reinterpret_cast<const char*>(bytes.data()) + bytes.size());
 }
 
+/// SIGINT comes once, after the fiftieth part of a second of work.
+class SignalSoon {
+ public:
+  SignalSoon() {
+    std::signal(SIGPROF, [](int) { std::raise(SIGINT); });
+    const itimerval soon{{0, 0}, {0, 20'000}};
+    setitimer(ITIMER_PROF, &soon, nullptr);
+  }
+  ~SignalSoon() { std::signal(SIGPROF, SIG_DFL); }
+  SignalSoon(const SignalSoon&) = delete;
+  SignalSoon& operator=(const SignalSoon&) = delete;
+};
+
 /// Runs `biotomy` on a sample of 6 layers of 40 × 30 voxels of 10 × 10 × 20 µm.
 class SectionAndSeries : public testing::Test {
  protected:
@@ -114,6 +127,49 @@ TEST_F(SectionAndSeries, NoSidecarIsWrittenUnlessAskedFor) {
   EXPECT_FALSE(fs::exists(folder_ / "a.json"));
 }
 
+TEST_F(SectionAndSeries, TheSidecarSaysWhichLevelsWereRead) {
+  const auto levels_at = [&](const std::string& pixel) {
+    section(folder_ / "a.png", {"--json", "--pixel", pixel});
+    return json_in(folder_ / "a.json").at("levels").get<std::vector<int>>();
+  };
+  EXPECT_THAT(levels_at("10"), testing::ElementsAre(0));
+  EXPECT_THAT(levels_at("15"), testing::ElementsAre(0, 1));
+  EXPECT_THAT(levels_at("20"), testing::ElementsAre(1));
+}
+
+TEST_F(SectionAndSeries, LayersThatAreNotInTheVolumeYetAreInTheSection) {
+  section(folder_ / "before.png");
+  fs::remove_all(sample_ + "/volume.ome.zarr");
+  section(folder_ / "after.png");
+  EXPECT_TRUE(reconstruct::same_pixels(read_image_file(folder_ / "after.png"),
+                                       read_image_file(folder_ / "before.png")));
+  rotation(folder_ / "turning");
+  EXPECT_EQ(json_in(folder_ / "turning/series.json").at("sample").at("layers"), 6);
+}
+
+TEST_F(SectionAndSeries, StatisticsAreOneLineOfJson) {
+  testing::internal::CaptureStderr();
+  section(folder_ / "a.png", {"--stats"});
+  const auto line = nlohmann::json::parse(testing::internal::GetCapturedStderr());
+  EXPECT_EQ(line.at("pixels"), 40 * 30);
+  EXPECT_GT(line.at("section_s"), 0.0);
+  EXPECT_GE(line.at("section_s"), line.at("sample_s"));
+  EXPECT_GT(line.at("encode_s"), 0.0);
+}
+
+TEST_F(SectionAndSeries, ASignalEndsASectionAndLeavesTheOldPicture) {
+  section(folder_ / "a.png");
+  const auto before = read_file(folder_ / "a.png");
+  const std::size_t files = names_in(folder_.path()).size();
+  const std::string message = message_of<SampleError>([&] {
+    const SignalSoon signal;
+    section(folder_ / "a.png", {"--pixel", "0.05"});
+  });
+  EXPECT_THAT(message, testing::EndsWith("a.png: interrupted; the picture was not written"));
+  EXPECT_EQ(read_file(folder_ / "a.png"), before);
+  EXPECT_EQ(names_in(folder_.path()).size(), files);
+}
+
 TEST_F(SectionAndSeries, AFullDiskLeavesTheOldPicture) {
   const fs::path path = folder_ / "a.png";
   section(path);
@@ -129,7 +185,7 @@ TEST_F(SectionAndSeries, ASeriesSaysWhatItIs) {
   rotation(folder_ / "turning");
   const nlohmann::json series = json_in(folder_ / "turning/series.json");
   EXPECT_EQ(series.at("sample").at("name"), "sample");
-  EXPECT_EQ(series.at("sample").at("layers_in_volume"), 6);
+  EXPECT_EQ(series.at("sample").at("layers"), 6);
   EXPECT_EQ(series.at("parameters").at("command"), "rotate");
   EXPECT_EQ(series.at("unit"), "deg");
   ASSERT_EQ(series.at("frames").size(), 5U);
@@ -162,16 +218,11 @@ TEST_F(SectionAndSeries, AFolderOfAnotherSeriesIsRefused) {
 
 TEST_F(SectionAndSeries, ASignalEndsASeriesBetweenTwoFramesAndItGoesOn) {
   const fs::path turning = folder_ / "turning";
-  const auto ask = [](int) { std::raise(SIGINT); };
-  // Comes once, after a tenth of a second of work.
-  std::signal(SIGPROF, ask);
-  const itimerval soon{{0, 0}, {0, 100'000}};
-  setitimer(ITIMER_PROF, &soon, nullptr);
   const std::string message = message_of<SampleError>([&] {
+    const SignalSoon signal;
     run({"series", sample_, "rotate", "--axis", "x", "--to", "180", "--step", "0.05", "-o",
          turning});
   });
-  std::signal(SIGPROF, SIG_DFL);
   EXPECT_THAT(message, HasSubstr("interrupted after "));
   EXPECT_THAT(message, HasSubstr("same command"));
   for (const std::string& name : names_in(turning)) {

@@ -57,6 +57,21 @@ TEST(SampleFolder, IsTheSameWhenItIsOpenedAgain) {
   EXPECT_EQ(description.cuboid.spacing, example().cuboid.spacing);
 }
 
+TEST(SampleFolder, CountsLayerImagesUpToTheFirstGap) {
+  const TemporaryFolder folder;
+  SampleDescription description = example();
+  description.cuboid.size.z = 6;
+  const SampleFolder sample = SampleFolder::create(folder.path() / "knee", description);
+  EXPECT_EQ(sample.layers_on_disk(1), 0);
+  for (const int layer : {1, 2, 4, 5, 6, 7}) {
+    write_text(sample.layer_path(layer), "");
+  }
+  EXPECT_EQ(sample.layers_on_disk(1), 2);
+  EXPECT_EQ(sample.layers_on_disk(3), 0);
+  EXPECT_EQ(sample.layers_on_disk(4), 3);  // the job ends at 6
+  EXPECT_EQ(sample.layers_on_disk(7), 0);
+}
+
 TEST(SampleFolder, HasFoldersForLayersAndForRejectedFrames) {
   const TemporaryFolder folder;
   const auto sample = SampleFolder::create(folder.path() / "knee", example());

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <random>
+#include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -211,6 +213,35 @@ TEST(Sampler, PlanesAlongYAndZAreReslicedToTheBit) {
       ASSERT_EQ(level_at(image, j, k, 2), source.voxel(39, j, k, 2));
     }
   }
+}
+
+TEST(Sampler, TellsHowManyRowsAreDone) {
+  MemorySource source;
+  const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 40});
+  const PixelGrid grid = grid_for(plane, source.box, 0.5);
+  std::vector<std::int64_t> told;
+  sample_grid(source, grid, Interpolation::linear, kBackground,
+              [&](std::int64_t done, std::int64_t total) {
+                EXPECT_EQ(total, grid.rows);
+                told.push_back(done);
+              });
+  EXPECT_GT(told.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), grid.rows);
+}
+
+TEST(Sampler, StopsWhenWhoIsToldThrows) {
+  MemorySource source;
+  const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 40});
+  int calls = 0;
+  EXPECT_THROW(
+      sample_grid(source, grid_for(plane, source.box, 0.5), Interpolation::linear, kBackground,
+                  [&](std::int64_t, std::int64_t) {
+                    ++calls;
+                    throw std::runtime_error("stop");
+                  }),
+      std::runtime_error);
+  EXPECT_EQ(calls, 1);
 }
 
 TEST(Sampler, NearestTakesTheColourOfTheNearestVoxel) {

@@ -35,7 +35,7 @@ TEST(SeriesFrames, AreAllOfOneSize) {
                             grey_blue_style());
   ASSERT_EQ(frames.count(), 4U);
   for (std::size_t i = 0; i < frames.count(); ++i) {
-    EXPECT_EQ(frames.draw(i).size(), frames.frame_size());
+    EXPECT_EQ(frames.draw(i).image.size(), frames.frame_size());
   }
 }
 
@@ -45,7 +45,7 @@ TEST(SeriesFrames, ShowTheLayersInASeriesAlongZ) {
   const SeriesFrames frames(source, translation_series(along_z(), BasisKind::layer, source.box),
                             grey_blue_style());
   ASSERT_EQ(frames.count(), 20U);
-  const cv::Mat frame = frames.draw(13);
+  const cv::Mat frame = frames.draw(13).image;
   const int left = (frames.frame_size().width - 40) / 2;
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
@@ -63,14 +63,14 @@ TEST(SeriesFrames, AreBackgroundWhereThePlaneMisses) {
   translation.step = 200.0;
   const SeriesFrames frames(source, translation_series(translation, BasisKind::layer, source.box),
                             grey_blue_style());
-  const cv::Mat empty = frames.draw(2);
+  const cv::Mat empty = frames.draw(2).image;
   const cv::Vec3b background(kGreyBlue[0], kGreyBlue[1], kGreyBlue[2]);
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < empty.cols; ++x) {
       ASSERT_EQ(empty.at<cv::Vec3b>(y, x), background);
     }
   }
-  EXPECT_EQ(empty.size(), frames.draw(0).size());
+  EXPECT_EQ(empty.size(), frames.draw(0).image.size());
 }
 
 TEST(SeriesFrames, HaveAScaleBarUnlessItIsNotWanted) {
@@ -92,7 +92,7 @@ TEST(SeriesFrames, SayWhereTheirSectionLies) {
                             grey_blue_style());
   ASSERT_TRUE(frames.outline(0).has_value());
   EXPECT_EQ(frames.outline(0)->grid.columns, 40);
-  const cv::Mat frame = frames.draw(0);
+  const cv::Mat frame = frames.draw(0).image;
   const cv::Point first = frames.first_pixel(0);
   EXPECT_EQ(frame.at<cv::Vec3b>(first)[0], source.voxel(0, 0, 0, 0));
   EXPECT_EQ(frame.at<cv::Vec3b>(first + cv::Point(39, 29))[2], source.voxel(39, 29, 0, 2));

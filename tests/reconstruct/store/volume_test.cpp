@@ -58,6 +58,30 @@ TEST_F(VolumeOnDisk, VoxelsOfAChunkAreInTheirPlaces) {
   }
 }
 
+TEST_F(VolumeOnDisk, OfASampleIsTheOneInItsFolder) {
+  EXPECT_EQ(Volume::of_sample(sample_).layers_present(), 8);
+  std::filesystem::remove(sample_.volume_path() / "zarr.json");
+  EXPECT_THAT(message_of<SampleError>([&] { Volume::of_sample(sample_); }),
+              AllOf(HasSubstr("zarr.json"), HasSubstr("is missing")));
+}
+
+TEST_F(VolumeOnDisk, OfASampleThatHasNoneYetHasNoLayers) {
+  const auto expect_nothing = [&] {
+    const Volume volume = Volume::of_sample(sample_);
+    EXPECT_EQ(volume.layers_present(), 0);
+    EXPECT_EQ(volume.cuboid().size, (GridSize{30, 20, 8}));
+    EXPECT_EQ(volume.cuboid().spacing, (Vector3{10.0, 11.0, 50.0}));
+    EXPECT_EQ(volume.bits(), 8);
+    EXPECT_EQ(volume.read_chunk(0, {0, 0, 0}), nullptr);
+  };
+  std::filesystem::remove_all(sample_.volume_path());
+  expect_nothing();
+  // A writer has begun it: the arrays are there, the group is not.
+  VolumeWriter(sample_, VolumeLayout{});
+  std::filesystem::remove(sample_.volume_path() / "zarr.json");
+  expect_nothing();
+}
+
 TEST_F(VolumeOnDisk, CountsWhatReadingCosts) {
   const Volume volume = open();
   volume.read_chunk(0, {0, 0, 0});
