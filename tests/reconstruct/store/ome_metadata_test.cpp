@@ -75,6 +75,29 @@ TEST(OmeMetadata, RefusesANegativeNumberOfLayers) {
   EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
 }
 
+TEST(OmeMetadata, ClaimsThatEveryShardIsStoredOnlyWhereItIsSo) {
+  VolumeMetadata metadata = example();
+  EXPECT_FALSE(nlohmann::json::parse(group_metadata(metadata))
+                   .at("attributes")
+                   .at("biotomy")
+                   .contains("every_shard"));
+  metadata.every_shard = true;
+  EXPECT_EQ(parse_group_metadata(group_metadata(metadata), "g"), metadata);
+  auto group = nlohmann::json::parse(group_metadata(metadata));
+  group["attributes"]["biotomy"]["every_shard"] = "yes";
+  EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
+}
+
+TEST(OmeMetadata, ALayerOfALevelIsPresentWithTheFirstThatItIsMadeOf) {
+  VolumeMetadata metadata = example();  // factors 1, 1 and 2 along z
+  metadata.layers_present = 5;
+  EXPECT_EQ(layers_present_at(metadata, 0), 5);
+  EXPECT_EQ(layers_present_at(metadata, 1), 5);
+  EXPECT_EQ(layers_present_at(metadata, 2), 3);
+  metadata.layers_present = 0;
+  EXPECT_EQ(layers_present_at(metadata, 2), 0);
+}
+
 TEST(OmeMetadata, RefusesAStoreWithoutOurOwnAttributes) {
   auto group = nlohmann::json::parse(group_metadata(example()));
   group["attributes"].erase("biotomy");
