@@ -81,7 +81,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
   const reconstruct::Plane plane =
       reconstruct::parse_plane("--", arguments.plane, chosen.unit, spacing);
 
-  VolumeBricks source(volume, chosen.cache_bytes);
+  VolumeBricks source(volume, chosen.cache_bytes, chosen.damage);
   const Section section =
       reconstruct::cut_section(source, {plane, reconstruct::section_basis(chosen.basis, plane),
                                         style_for(chosen, arguments.options, spacing)});
@@ -97,6 +97,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
         sidecar_of(arguments.output),
         reconstruct::json_text(reconstruct::to_json(record), kSidecarIndentation) + '\n');
   }
+  warn_of(source.damage());
   if (arguments.stats) {
     print_statistics(section, volume, encoding.count());
   }

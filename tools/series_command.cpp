@@ -187,7 +187,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   const auto sample = reconstruct::SampleFolder::open(arguments.sample);
   const std::string& sample_name = sample.description().name;
   const auto volume = reconstruct::Volume::open(sample.volume_path());
-  reconstruct::VolumeBricks source(volume, chosen.cache_bytes);
+  reconstruct::VolumeBricks source(volume, chosen.cache_bytes, chosen.damage);
   const SeriesFrames frames(source, make_series(arguments, chosen, volume.cuboid()),
                             style_for(chosen, arguments.options, volume.cuboid().spacing),
                             !arguments.no_scale_bar);
@@ -204,6 +204,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   ProgressBar progress("Cutting", "frames");
   for (std::size_t i = 0; i < frames.count(); ++i) {
     if (Interruption::requested()) {
+      warn_of(source.damage());
       throw SampleError(arguments.output + ": interrupted after " + std::to_string(i) + " of " +
                         std::to_string(frames.count()) +
                         " frames; the same command again takes the series up");
@@ -223,6 +224,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   if (film) {
     film->finish();
   }
+  warn_of(source.damage());
 }
 
 std::string colour_text(const reconstruct::Colour& colour) {
