@@ -156,15 +156,16 @@ std::string group_metadata(const VolumeMetadata& metadata) {
                            {"datasets", datasets},
                            {"type", "mean"},  // how a level is made of the one before
                            {"metadata", {{"software", "Biotomy " BIOTOMY_VERSION}}}};
-  const json ome = {{"version", "0.5"},
-                    {"multiscales", json::array({multiscale})},
-                    {"omero", {{"channels", channels(metadata.bits)}}}};
+  const json omero = {{"channels", channels(metadata.bits)}};
+  const json ome = {
+      {"version", "0.5"}, {"multiscales", json::array({multiscale})}, {"omero", omero}};
   json own = {{"layers_present", metadata.layers_present}, {"bits", metadata.bits}};
   if (metadata.every_shard) {
     own["every_shard"] = true;
   }
-  const json group = {
-      {"zarr_format", 3}, {"node_type", "group"}, {"attributes", {{"ome", ome}, {"biotomy", own}}}};
+  // neuroglancer looks for omero where OME-Zarr 0.4 had it.
+  const json attributes = {{"ome", ome}, {"omero", omero}, {"biotomy", own}};
+  const json group = {{"zarr_format", 3}, {"node_type", "group"}, {"attributes", attributes}};
   return group.dump(2) + "\n";
 }
 

@@ -55,11 +55,13 @@ TEST(OmeMetadata, RefusesLevelsByOtherNames) {
 
 TEST(OmeMetadata, ShowsTheThreeColoursInTheirFullRange) {
   const auto group = nlohmann::json::parse(group_metadata(example()));
-  const auto& channels = group.at("attributes").at("ome").at("omero").at("channels");
+  const auto& attributes = group.at("attributes");
+  const auto& channels = attributes.at("ome").at("omero").at("channels");
   ASSERT_EQ(channels.size(), 3U);
   EXPECT_EQ(channels.at(0).at("color"), "FF0000");
   EXPECT_EQ(channels.at(2).at("color"), "0000FF");
   EXPECT_EQ(channels.at(1).at("window").at("end"), 65535);
+  EXPECT_EQ(attributes.at("omero"), attributes.at("ome").at("omero"));
 }
 
 TEST(OmeMetadata, RefusesAnotherVersion) {
