@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -79,16 +80,32 @@ std::filesystem::path sidecar_of(std::filesystem::path picture) {
   return picture.replace_extension(".json");
 }
 
+/// One section needs the chunks of two strips of its rows at a time. Memory for more would only be
+/// filled once, and filling fresh memory takes as long as decoding.
+std::size_t enough_for_one(const OpenedSample& sample, const reconstruct::SectionRequest& request) {
+  constexpr std::size_t kLeastBytes = 64'000'000;
+  constexpr std::size_t kBytesForAColumn = 60'000;  // of 8 bits; measured on steep planes
+  const Volume& volume = sample.volume;
+  const auto columns = static_cast<std::size_t>(
+      reconstruct::outline_section(volume.cuboid(), volume.bits(), request).grid.columns);
+  return std::max(kLeastBytes, columns * kBytesForAColumn) *
+         static_cast<std::size_t>(volume.bits() / 8);
+}
+
 /// The chunks are gone when it returns: encoding the picture needs the memory.
 Section cut(const OpenedSample& sample, const reconstruct::SectionRequest& request,
-            std::size_t cache_bytes, const std::string& output) {
-  VolumeBricks source(sample.volume, cache_bytes, {}, &sample.tail);
+            const SectionChoices& chosen, const std::string& output) {
+  VolumeBricks source(sample.volume, std::min(chosen.cache_bytes, enough_for_one(sample, request)),
+                      chosen.damage, &sample.tail);
   ProgressBar progress("Cutting", "rows");
-  return reconstruct::cut_section(source, request, [&](std::int64_t done, std::int64_t total) {
-    reconstruct::stop_here_if(&Interruption::requested,
-                              output + ": interrupted; the picture was not written");
-    progress.update(done, total);
-  });
+  Section section =
+      reconstruct::cut_section(source, request, [&](std::int64_t done, std::int64_t total) {
+        reconstruct::stop_here_if(&Interruption::requested,
+                                  output + ": interrupted; the picture was not written");
+        progress.update(done, total);
+      });
+  warn_of(source.damage());
+  return section;
 }
 
 void run_section(const SectionArguments& arguments, const CLI::App& command) {
@@ -105,7 +122,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
   const Section section = cut(sample,
                               {plane, reconstruct::section_basis(chosen.basis, plane),
                                style_for(chosen, arguments.options, cuboid.spacing)},
-                              chosen.cache_bytes, arguments.output);
+                              chosen, arguments.output);
   durations.section = Clock::now() - start;
   const reconstruct::SectionRecord record{sample.folder.description().name,
                                           cuboid,

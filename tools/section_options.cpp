@@ -1,5 +1,7 @@
 #include "tools/section_options.hpp"
 
+#include <iostream>
+
 #include <CLI/CLI.hpp>
 
 #include "reconstruct/errors.hpp"
@@ -37,17 +39,21 @@ void add_section_options(CLI::App& command, SectionOptions& options) {
   command.add_option("--pixel", options.pixel, "Size of a pixel; the least spacing if none");
   command.add_option("--background", options.background, "Colour outside the sample, R,G,B")
       ->capture_default_str();
-  command.add_option("--cache-mb", options.cache_mb, "Memory for decoded chunks, MB")
+  command.add_option("--cache-mb", options.cache_mb, "Memory for decoded chunks, at most, MB")
       ->capture_default_str();
+  command.add_flag("--tolerate-missing", options.tolerate_missing,
+                   "What is damaged or missing becomes background, with a warning, not an error");
 }
 
 SectionChoices choices(const SectionOptions& options) {
   SectionChoices chosen{reconstruct::parse_unit("--unit", options.unit),
                         reconstruct::basis_kind(options.basis),
                         {},
-                        cache_bytes(options.cache_mb)};
+                        cache_bytes(options.cache_mb),
+                        {}};
   chosen.style.interpolation = reconstruct::interpolation(options.interpolation);
   chosen.style.background = reconstruct::parse_colour("--background", options.background);
+  chosen.damage = {options.tolerate_missing, chosen.style.background};
   return chosen;
 }
 
@@ -63,6 +69,16 @@ reconstruct::SectionStyle style_for(const SectionChoices& choices, const Section
     style.pixel = reconstruct::length_in_micrometres(length, choices.unit, spacing);
   }
   return style;
+}
+
+void warn_of(const reconstruct::Damage& damage) {
+  if (damage.chunks == 0) {
+    return;
+  }
+  std::cerr << "biotomy: " << damage.chunks
+            << (damage.chunks == 1 ? " chunk cannot be read and is"
+                                   : " chunks cannot be read and are")
+            << " background; " << (damage.chunks == 1 ? "" : "the first: ") << damage.first << '\n';
 }
 
 }  // namespace biotomy::tools

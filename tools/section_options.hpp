@@ -7,6 +7,7 @@
 #include "reconstruct/geometry/vector3.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
+#include "reconstruct/section/volume_bricks.hpp"
 
 namespace CLI {
 class App;
@@ -23,6 +24,7 @@ struct SectionOptions {
   std::string pixel;  ///< empty: the least spacing
   std::string background;
   std::string cache_mb = "512";
+  bool tolerate_missing = false;
 };
 
 /// What those options mean, as far as it does not depend on the sample.
@@ -31,6 +33,7 @@ struct SectionChoices {
   reconstruct::BasisKind basis;
   reconstruct::SectionStyle style;
   std::size_t cache_bytes;
+  reconstruct::DamagePolicy damage;
 };
 
 /// `options.background` is the default that help shows.
@@ -43,5 +46,8 @@ SectionChoices choices(const SectionOptions& options);
 /// The style with the rectangle and the pixel size in a sample of this spacing.
 reconstruct::SectionStyle style_for(const SectionChoices& choices, const SectionOptions& options,
                                     const reconstruct::Vector3& spacing);
+
+/// One line on stderr, when there is any.
+void warn_of(const reconstruct::Damage& damage);
 
 }  // namespace biotomy::tools

@@ -183,7 +183,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   }
   const OpenedSample sample(arguments.sample);
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
-  reconstruct::VolumeBricks source(sample.volume, chosen.cache_bytes, {}, &sample.tail);
+  reconstruct::VolumeBricks source(sample.volume, chosen.cache_bytes, chosen.damage, &sample.tail);
   const SeriesFrames frames(source, make_series(arguments, chosen, cuboid),
                             style_for(chosen, arguments.options, cuboid.spacing),
                             !arguments.no_scale_bar);
@@ -200,6 +200,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   ProgressBar progress("Cutting", "frames");
   for (std::size_t i = 0; i < frames.count(); ++i) {
     if (Interruption::requested()) {
+      warn_of(source.damage());
       throw SampleError(arguments.output + ": interrupted after " + std::to_string(i) + " of " +
                         std::to_string(frames.count()) +
                         " frames; the same command again takes the series up");
@@ -220,6 +221,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   if (film) {
     film->finish();
   }
+  warn_of(source.damage());
 }
 
 std::string colour_text(const reconstruct::Colour& colour) {

@@ -67,7 +67,7 @@ std::vector<TexelBrick> VolumeBricks::fetch(int level, std::span<const ChunkInde
       bricks[part.places[which]] = voxels.empty() ? nullptr : brick_of(voxels);
     };
     const auto replace = [&](std::size_t which, const SampleError& error) {
-      note_damage(error.what());
+      note_damage(level, part.chunks[which], error.what());
       bricks[part.places[which]] = damaged_brick();
     };
     source.read_chunks(level, part.chunks, keep,
@@ -97,16 +97,17 @@ std::shared_ptr<std::byte> VolumeBricks::damaged_brick() {
                                        : painted<std::uint8_t>(voxels, policy_.colour));
 }
 
-void VolumeBricks::note_damage(const std::string& what) {
+void VolumeBricks::note_damage(int level, const ChunkIndex& chunk, const std::string& what) {
   const std::lock_guard lock(mutex_);
-  if (damage_.chunks++ == 0) {
-    damage_.first = what;
+  const auto [place, is_new] = damaged_.emplace(level, chunk);
+  if (is_new && place == damaged_.begin()) {
+    first_damage_ = what;
   }
 }
 
 Damage VolumeBricks::damage() const {
   const std::lock_guard lock(mutex_);
-  return damage_;
+  return {static_cast<std::int64_t>(damaged_.size()), first_damage_};
 }
 
 }  // namespace biotomy::reconstruct

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/section/block_pool.hpp"
@@ -26,8 +28,8 @@ struct DamagePolicy {
 
 /// What was tolerated.
 struct Damage {
-  std::int64_t chunks = 0;
-  std::string first;  ///< what was wrong with the first
+  std::int64_t chunks = 0;  ///< each counted once, however often it was asked for
+  std::string first;        ///< what was wrong with the first, by level and then by z, y, x
 };
 
 /// A volume read through a cache of decoded bricks, with the layers laid over it that are not in it
@@ -53,7 +55,7 @@ class VolumeBricks final : public BrickSource {
   std::vector<TexelBrick> fetch(int level, std::span<const ChunkIndex> wanted);
   std::shared_ptr<std::byte> brick_of(std::span<const std::byte> voxels);
   std::shared_ptr<std::byte> damaged_brick();
-  void note_damage(const std::string& what);
+  void note_damage(int level, const ChunkIndex& chunk, const std::string& what);
 
   const Volume& volume_;
   DamagePolicy policy_;
@@ -62,7 +64,8 @@ class VolumeBricks final : public BrickSource {
   BlockPool pool_;
   BrickCache cache_;
   mutable std::mutex mutex_;
-  Damage damage_;
+  std::set<std::pair<int, ChunkIndex>> damaged_;
+  std::string first_damage_;
 };
 
 }  // namespace biotomy::reconstruct

@@ -42,6 +42,9 @@ std::optional<ObjectVersion> LocalObjectReader::version(const std::string& name)
     }
     fail(describe(name), "look for it", errno);
   }
+  if (!S_ISREG(status.st_mode)) {
+    throw SampleError(describe(name) + ": is not a file");  // a pipe would let us wait for ever
+  }
   return version_of(status);
 }
 

@@ -12,8 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // a value takes up to 30 times its text
-constexpr int kDeepest = 32;                              // comparing and printing values recurse
+constexpr int kDeepest = 32;  // comparing and printing values recurse
 
 /// Looks at each event of the parser before a value is built from it.
 class Guard {
@@ -49,9 +48,9 @@ class Guard {
 }  // namespace
 
 json parse_metadata_json(const std::string& text) {
-  if (text.size() > kMostBytes) {
+  if (text.size() > kMostMetadataBytes) {
     throw SampleError("it has " + std::to_string(text.size()) + " bytes, metadata has at most " +
-                      std::to_string(kMostBytes));
+                      std::to_string(kMostMetadataBytes));
   }
   Guard guard;
   try {

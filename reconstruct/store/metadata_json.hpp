@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 namespace biotomy::reconstruct {
+
+/// No metadata of a volume is longer; a value takes up to 30 times its text.
+inline constexpr std::size_t kMostMetadataBytes = std::size_t{1} << 20;
 
 /// The JSON of a `zarr.json` that may come from anywhere. Throws SampleError, in one line and
 /// without the file's name, on what is not JSON and on what no writer of metadata means: more than

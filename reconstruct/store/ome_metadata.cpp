@@ -128,6 +128,7 @@ VolumeMetadata from_json(const json& group) {
   metadata.bits = static_cast<int>(whole_number(own.at("bits"), "bits", 8, 16));
   metadata.layers_present =
       whole_number(own.at("layers_present"), "layers_present", 0, kMostLayers);
+  metadata.every_shard = own.value("every_shard", false);
   if (metadata.bits != 8 && metadata.bits != 16) {
     throw SampleError("bits must be 8 or 16");
   }
@@ -135,6 +136,11 @@ VolumeMetadata from_json(const json& group) {
 }
 
 }  // namespace
+
+std::int64_t layers_present_at(const VolumeMetadata& metadata, std::size_t level) {
+  const std::int64_t factor = metadata.levels.at(level).z;
+  return (metadata.layers_present + factor - 1) / factor;
+}
 
 std::string level_path(int level) {
   return std::to_string(level);
@@ -150,12 +156,16 @@ std::string group_metadata(const VolumeMetadata& metadata) {
                            {"datasets", datasets},
                            {"type", "mean"},  // how a level is made of the one before
                            {"metadata", {{"software", "Biotomy " BIOTOMY_VERSION}}}};
-  const json ome = {{"version", "0.5"},
-                    {"multiscales", json::array({multiscale})},
-                    {"omero", {{"channels", channels(metadata.bits)}}}};
-  const json own = {{"layers_present", metadata.layers_present}, {"bits", metadata.bits}};
-  const json group = {
-      {"zarr_format", 3}, {"node_type", "group"}, {"attributes", {{"ome", ome}, {"biotomy", own}}}};
+  const json omero = {{"channels", channels(metadata.bits)}};
+  const json ome = {
+      {"version", "0.5"}, {"multiscales", json::array({multiscale})}, {"omero", omero}};
+  json own = {{"layers_present", metadata.layers_present}, {"bits", metadata.bits}};
+  if (metadata.every_shard) {
+    own["every_shard"] = true;
+  }
+  // neuroglancer looks for omero where OME-Zarr 0.4 had it.
+  const json attributes = {{"ome", ome}, {"omero", omero}, {"biotomy", own}};
+  const json group = {{"zarr_format", 3}, {"node_type", "group"}, {"attributes", attributes}};
   return group.dump(2) + "\n";
 }
 

@@ -7,9 +7,11 @@
 #include <span>
 #include <utility>
 
+#include "reconstruct/errors.hpp"
 #include "reconstruct/store/codecs.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/level_mean.hpp"
+#include "reconstruct/store/missing_part.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/shard_layers.hpp"
@@ -78,8 +80,7 @@ class ShardEncoder {
       return {};
     }
     if (z + layout_.chunk[0] <= first_) {
-      const auto encoded = before_ ? before_->encoded(number) : std::span<const std::byte>{};
-      return {encoded.begin(), encoded.end()};
+      return before_ ? before_->encoded(number) : Bytes{};
     }
     Bytes voxels(codec_.chunk_bytes());
     if (z < first_ && before_) {
@@ -164,10 +165,15 @@ class PyramidWriter::BandOfLevels {
     return writer_.volume_ / level_path(static_cast<int>(level)) / shard_key(z, y, x);
   }
 
+  /// A shard that holds layers of earlier bands.
   std::optional<StoredShard> stored_shard(std::size_t level, std::int64_t z, std::int64_t y,
                                           std::int64_t x) const {
-    return StoredShard::read(shard_path(level, z, y, x),
-                             chunks_of_shard(writer_.arrays_[level].layout));
+    const fs::path path = shard_path(level, z, y, x);
+    std::optional<StoredShard> shard = StoredShard::open(path, writer_.arrays_[level]);
+    if (!shard && writer_.every_shard_) {
+      throw SampleError(path.string() + ": " + kIsMissing);
+    }
+    return shard;
   }
 
   /// Writes the shard, after those of the finer levels that it covers. Returns the band's layers of
@@ -232,12 +238,8 @@ class PyramidWriter::BandOfLevels {
   void store(const fs::path& path, Bytes shard) {
     const std::size_t size = shard.size();
     disk_.add(size, [path, bytes = std::move(shard)] {
-      if (!bytes.empty()) {
-        create_folders_durably(path.parent_path());
-        write_durably(path, bytes);
-      } else if (fs::remove(path)) {  // of a band that was interrupted
-        sync_folder(path.parent_path());
-      }
+      create_folders_durably(path.parent_path());
+      write_durably(path, bytes);
     });
   }
 
@@ -248,10 +250,11 @@ class PyramidWriter::BandOfLevels {
 };
 
 PyramidWriter::PyramidWriter(fs::path volume, const ZarrArray& finest,
-                             std::vector<LevelFactor> factors)
+                             std::vector<LevelFactor> factors, bool every_shard)
     : volume_(std::move(volume)),
       factors_(std::move(factors)),
-      arrays_(level_arrays(finest, factors_)) {}
+      arrays_(level_arrays(finest, factors_)),
+      every_shard_(every_shard) {}
 
 void PyramidWriter::write_band(std::int64_t first_layer, std::int64_t layer_count,
                                const BandRegions& band) {

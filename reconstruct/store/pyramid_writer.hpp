@@ -26,15 +26,16 @@ std::vector<ZarrArray> level_arrays(const ZarrArray& finest,
 /// before, as they are stored, and is computed anew when 2k + 1 comes with a later band. So the
 /// bytes of a volume depend on its layers alone, not on how often or when it was appended to. A
 /// shard of a level that halves z spans several bands: with each it is written anew, with the
-/// layers that it had.
+/// layers that it had. Every shard is stored, also one that is all fill value.
 ///
 /// The levels are computed shard by shard, each from the shards that it covers: memory holds a few
 /// regions of the size of a shard, whatever the size of a layer.
 class PyramidWriter {
  public:
-  /// `volume` is the folder of the group; the arrays of `factors` are there.
+  /// `volume` is the folder of the group; the arrays of `factors` are there. `every_shard` is what
+  /// the group says (VolumeMetadata): whether a shard of earlier bands that is missing is an error.
   PyramidWriter(std::filesystem::path volume, const ZarrArray& finest,
-                std::vector<LevelFactor> factors);
+                std::vector<LevelFactor> factors, bool every_shard);
 
   /// Stores layers `first_layer` (from 0, where a shard begins) to `first_layer + layer_count − 1`
   /// durably in all levels. What the shards hold of deeper layers becomes fill value. `band` is
@@ -47,6 +48,7 @@ class PyramidWriter {
   std::filesystem::path volume_;
   std::vector<LevelFactor> factors_;
   std::vector<ZarrArray> arrays_;
+  bool every_shard_;
 };
 
 }  // namespace biotomy::reconstruct

@@ -52,9 +52,6 @@ std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& c
     stored_bytes += chunk.size();
   }
   std::vector<std::byte> shard;
-  if (stored_bytes == 0) {
-    return shard;
-  }
   shard.reserve(stored_bytes + shard_index_bytes(chunks.size()));
   std::vector<std::byte> index;
   for (const auto& chunk : chunks) {

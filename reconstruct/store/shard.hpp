@@ -24,8 +24,8 @@ struct ChunkRange {
 using ShardIndex = std::vector<ChunkRange>;
 
 /// Zarr v3, codec `sharding_indexed` 1.0: the encoded chunks one after the other, then the index as
-/// little-endian 64-bit numbers, then its CRC-32C. A chunk without bytes is fill value. Empty when
-/// all are: such a shard is not stored.
+/// little-endian 64-bit numbers, then its CRC-32C. A chunk without bytes is fill value; where all
+/// are, the shard is an index alone.
 std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& chunks);
 
 /// Bytes of the index with its checksum: the last of a shard.

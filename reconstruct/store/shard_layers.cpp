@@ -31,7 +31,7 @@ std::vector<cv::Mat> shard_layers(const std::optional<StoredShard>& shard, const
         face;
     const int begin = std::max(first, z);
     const int end = std::min(first + count, z + chunk[0]);
-    if (inside.empty() || begin >= end || shard->encoded(number).empty()) {
+    if (inside.empty() || begin >= end || !shard->stores(number)) {
       return;
     }
     std::vector<std::byte> voxels(codec.chunk_bytes());

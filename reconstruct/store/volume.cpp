@@ -13,6 +13,8 @@
 #include "reconstruct/store/codecs.hpp"
 #include "reconstruct/store/local_object_reader.hpp"
 #include "reconstruct/store/lru_map.hpp"
+#include "reconstruct/store/metadata_text.hpp"
+#include "reconstruct/store/missing_part.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/zarr_array.hpp"
@@ -22,9 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kMetadataName = "zarr.json";
 constexpr std::size_t kIndexCacheBytes = std::size_t{64} << 20;
-constexpr std::uint64_t kLargestMetadata = std::uint64_t{16} << 20;
 constexpr std::uint64_t kLongestRun = std::uint64_t{1} << 20;  // bytes read and decoded by one task
 constexpr int kMostReplacements = 3;  // of one shard within one read: a writer is not that quick
 
@@ -77,26 +77,6 @@ std::vector<Run> runs_of(std::vector<Piece>& pieces) {
   return runs;
 }
 
-std::string read_text(ObjectReader& objects, const std::string& name) {
-  for (int attempt = 0; attempt < kMostReplacements; ++attempt) {
-    const auto version = objects.version(name);
-    if (!version) {
-      throw SampleError(objects.describe(name) + ": is missing; there is no volume here");
-    }
-    if (version->size > kLargestMetadata) {
-      throw SampleError(objects.describe(name) + ": is too large for metadata");
-    }
-    std::string text(version->size, '\0');
-    try {
-      objects.read(name, *version, 0, std::as_writable_bytes(std::span(text)));
-      return text;
-    } catch (const ObjectReplaced&) {
-      continue;  // a layer was added just now
-    }
-  }
-  throw SampleError(objects.describe(name) + ": keeps changing while it is read");
-}
-
 std::vector<PyramidLevel> levels_of(const Cuboid& cuboid, const std::vector<LevelFactor>& factors) {
   std::vector<PyramidLevel> levels;
   for (const LevelFactor& factor : factors) {
@@ -105,9 +85,25 @@ std::vector<PyramidLevel> levels_of(const Cuboid& cuboid, const std::vector<Leve
   return levels;
 }
 
+VolumeMetadata read_group(ObjectReader& objects) {
+  const auto text = read_metadata_text(objects, kMetadataName);
+  if (!text) {
+    throw SampleError(objects.describe(kMetadataName) + ": is missing; there is no volume here");
+  }
+  return parse_group_metadata(*text, objects.describe(kMetadataName));
+}
+
+std::string array_name(int level) {
+  return level_path(level) + "/" + kMetadataName;
+}
+
 ZarrArray read_array(ObjectReader& objects, int level) {
-  const std::string name = level_path(level) + "/" + kMetadataName;
-  return parse_array_metadata(read_text(objects, name), objects.describe(name));
+  const std::string name = array_name(level);
+  const auto text = read_metadata_text(objects, name);
+  if (!text) {
+    throw SampleError(objects.describe(name) + ": " + kIsMissing);
+  }
+  return parse_array_metadata(*text, objects.describe(name));
 }
 
 }  // namespace
@@ -141,18 +137,23 @@ struct Volume::State {
     statistics.bytes_read += static_cast<std::int64_t>(out.size());
   }
 
-  /// Null when the shard is not stored.
-  std::shared_ptr<const IndexedShard> load_shard(const std::string& name) {
+  /// Null when the shard is not stored and need not be. Throws ObjectReplaced.
+  std::shared_ptr<const IndexedShard> load_shard(int level, ChunkIndex chunk) {
+    const std::string name = shard_name(level, chunk);
     const auto version = objects->version(name);
     if (!version) {
+      if (must_be_stored(level, chunk)) {
+        throw SampleError(objects->describe(name) + ": " + kIsMissing);
+      }
       return nullptr;
     }
-    std::vector<std::byte> index(
-        shard_index_bytes(static_cast<std::size_t>(chunks_of_one_shard.total())));
-    if (version->size < index.size()) {
+    const std::size_t index_bytes =
+        shard_index_bytes(static_cast<std::size_t>(chunks_of_one_shard.total()));
+    if (version->size < index_bytes) {
       throw SampleError(objects->describe(name) + ": is truncated: it is shorter than its index");
     }
-    read(name, *version, version->size - index.size(), index);
+    std::vector<std::byte> index(index_bytes);
+    read(name, *version, version->size - index_bytes, index);
     auto shard = std::make_shared<IndexedShard>();
     shard->name = name;
     shard->version = *version;
@@ -166,14 +167,27 @@ struct Volume::State {
     return shard;
   }
 
-  std::shared_ptr<const IndexedShard> shard(const std::string& name) {
+  std::shared_ptr<const IndexedShard> shard(int level, ChunkIndex chunk) {
     {
       const std::lock_guard lock(mutex);
-      if (const auto* found = shards.find(name); found != nullptr) {
+      if (const auto* found = shards.find(shard_name(level, chunk)); found != nullptr) {
         return *found;
       }
     }
-    return load_shard(name);
+    return fresh_shard(level, chunk);
+  }
+
+  /// As it is stored now.
+  std::shared_ptr<const IndexedShard> fresh_shard(int level, ChunkIndex chunk) {
+    for (int attempt = 0; attempt < kMostReplacements; ++attempt) {
+      try {
+        return load_shard(level, chunk);
+      } catch (const ObjectReplaced&) {
+        continue;
+      }
+    }
+    throw SampleError(objects->describe(shard_name(level, chunk)) +
+                      ": keeps changing while it is read");
   }
 
   void decode(const std::string& name, ChunkIndex chunk, std::span<const std::byte> encoded,
@@ -196,6 +210,14 @@ struct Volume::State {
            shard_key(chunk.z / per_shard.z, chunk.y / per_shard.y, chunk.x / per_shard.x);
   }
 
+  /// Whether the chunk's shard has a part in the layers that are present, of a volume that stores
+  /// every such shard.
+  bool must_be_stored(int level, ChunkIndex chunk) const {
+    const std::int64_t first = chunk.z / chunks_of_one_shard.z * array.layout.shard[0];
+    return metadata.every_shard &&
+           first < layers_present_at(metadata, static_cast<std::size_t>(level));
+  }
+
   std::size_t place_in_shard(ChunkIndex chunk) const {
     const BlockCount& per_shard = chunks_of_one_shard;
     return static_cast<std::size_t>(
@@ -211,7 +233,7 @@ struct Volume::State {
     pieces.reserve(chunks.size());
     for (std::size_t which = 0; which < chunks.size(); ++which) {
       try {
-        const auto found = shard(shard_name(level, chunks[which]));
+        const auto found = shard(level, chunks[which]);
         const ChunkRange range = found ? found->index[place_in_shard(chunks[which])] : ChunkRange{};
         if (range.stored()) {
           pieces.push_back({found, range, which});
@@ -232,19 +254,20 @@ Volume::Volume(Volume&&) noexcept = default;
 
 Volume Volume::open(const std::filesystem::path& path) {
   auto objects = std::make_unique<LocalObjectReader>(path);
-  VolumeMetadata metadata =
-      parse_group_metadata(read_text(*objects, kMetadataName), objects->describe(kMetadataName));
+  VolumeMetadata metadata = read_group(*objects);
   const ZarrArray array = read_array(*objects, 0);
   if (array.bits != metadata.bits || metadata.layers_present > array.size.z) {
-    throw SampleError(path.string() + ": its metadata and its array contradict each other");
+    throw SampleError(objects->describe(kMetadataName) + ": contradicts " +
+                      objects->describe(array_name(0)));
   }
   auto state = std::make_unique<State>(std::move(objects), std::move(metadata), array);
   for (std::size_t level = 1; level < state->levels.size(); ++level) {
     ZarrArray expected = array;
     expected.size = state->levels[level].size;
-    if (read_array(*state->objects, static_cast<int>(level)) != expected) {
-      throw SampleError(path.string() + ": its level " + std::to_string(level) +
-                        " does not fit level 0; build the volume anew");
+    const int number = static_cast<int>(level);
+    if (read_array(*state->objects, number) != expected) {
+      throw SampleError(state->objects->describe(array_name(number)) +
+                        ": does not fit level 0; biotomy rebuild makes the volume anew");
     }
   }
   return Volume(std::move(state));
@@ -295,7 +318,7 @@ const ReadStatistics& Volume::statistics() const {
 
 std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chunk) const {
   const std::string name = state_->shard_name(level, chunk);
-  auto shard = state_->shard(name);
+  auto shard = state_->shard(level, chunk);
   for (int attempt = 0; shard && attempt < kMostReplacements; ++attempt) {
     const ChunkRange range = shard->index[state_->place_in_shard(chunk)];
     if (!range.stored()) {
@@ -308,7 +331,7 @@ std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chun
       state_->decode(name, chunk, encoded, *voxels);
       return voxels;
     } catch (const ObjectReplaced&) {
-      shard = state_->load_shard(name);
+      shard = state_->fresh_shard(level, chunk);
     }
   }
   if (shard) {

@@ -60,7 +60,8 @@ class Volume {
   std::int64_t layers_present() const;  ///< as the metadata said when it was opened
 
   /// Reads and decodes one chunk of a level; one that was never written is null (all fill value).
-  /// Throws SampleError on a damaged shard or chunk.
+  /// Throws SampleError on a damaged chunk or shard, and on a missing one when the metadata says
+  /// that every shard is stored.
   std::shared_ptr<const ChunkVoxels> read_chunk(int level, ChunkIndex index) const;
 
   /// Takes one of many chunks: `which` counts in the order of the indices asked for; `voxels` is

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/folder_swap.hpp"
 #include "reconstruct/store/layer_band.hpp"
+#include "reconstruct/store/metadata_text.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "reconstruct/store/zarr_array.hpp"
@@ -58,11 +57,9 @@ std::int64_t count_layers(const SampleFolder& sample) {
 }
 
 VolumeLayout layout_of(const fs::path& volume) {
-  const fs::path path = volume / level_path(0) / "zarr.json";
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const fs::path path = volume / level_path(0) / kMetadataName;
   try {
-    return parse_array_metadata(text, path.string()).layout;
+    return parse_array_metadata(read_metadata_file(path), path.string()).layout;
   } catch (const SampleError&) {
     return {};  // there is none, or it is what the volume is made anew for
   }

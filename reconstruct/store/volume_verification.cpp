@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,6 +19,8 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/level_mean.hpp"
+#include "reconstruct/store/metadata_text.hpp"
+#include "reconstruct/store/missing_part.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/pyramid_writer.hpp"
 #include "reconstruct/store/shard_layers.hpp"
@@ -31,16 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMetadataName = "zarr.json";
 constexpr std::size_t kShardsInFlight = 3;
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    throw SampleError(path.string() + ": cannot be opened");
-  }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// A SampleError's message begins with the file, which the finding names itself.
 std::string without_name(const std::string& message, const fs::path& file) {
@@ -94,6 +85,9 @@ class VolumeVerification {
     }
     check_layers_present();
     const std::vector<ShardPlace> shards = stored_shards();
+    if (group_.every_shard) {
+      check_missing(shards);
+    }
     total_ = static_cast<std::int64_t>(shards.size());
     if (deep) {
       for (const ZarrArray& array : arrays_) {
@@ -122,7 +116,7 @@ class VolumeVerification {
   bool check_metadata() {
     const fs::path group_path = volume_ / kMetadataName;
     try {
-      group_ = parse_group_metadata(read_text(group_path), group_path.string());
+      group_ = parse_group_metadata(read_metadata_file(group_path), group_path.string());
     } catch (const SampleError& error) {
       found(group_path, without_name(error.what(), group_path));
       return false;
@@ -147,7 +141,7 @@ class VolumeVerification {
     const fs::path path = volume_ / level_path(static_cast<int>(level)) / kMetadataName;
     const Cuboid& cuboid = sample_.description().cuboid;
     try {
-      const ZarrArray array = parse_array_metadata(read_text(path), path.string());
+      const ZarrArray array = parse_array_metadata(read_metadata_file(path), path.string());
       ZarrArray expected = level == 0 ? array : arrays_.front();
       expected.size = pyramid_level(cuboid, group_.levels[level]).size;
       expected.bits = group_.bits;
@@ -229,6 +223,28 @@ class VolumeVerification {
     return ShardPlace{level, z, y, x};
   }
 
+  void check_missing(const std::vector<ShardPlace>& stored) {
+    std::set<fs::path> there;
+    for (const ShardPlace& place : stored) {
+      there.insert(shard_path(place));
+    }
+    for (std::size_t level = 0; level < arrays_.size(); ++level) {
+      const BlockCount shards = shards_of(arrays_[level]);
+      const std::int64_t depth = arrays_[level].layout.shard[0];
+      for (std::int64_t z = 0; z * depth < layers_present_at(group_, level); ++z) {
+        for (std::int64_t y = 0; y < shards.y; ++y) {
+          for (std::int64_t x = 0; x < shards.x; ++x) {
+            const fs::path path = shard_path({level, z, y, x});
+            if (!there.contains(path)) {
+              found(path, kIsMissing);
+              damaged_.insert(path);
+            }
+          }
+        }
+      }
+    }
+  }
+
   void decode_all(const std::vector<ShardPlace>& shards) {
     std::size_t next = 0;
     const auto read = [&](tbb::flow_control& control) -> std::shared_ptr<ReadShard> {
@@ -240,7 +256,7 @@ class VolumeVerification {
       shard->level = shards[next].level;
       shard->path = shard_path(shards[next++]);
       try {
-        shard->shard = StoredShard::read(shard->path, chunks_of_shard(arrays_[0].layout));
+        shard->shard = StoredShard::open(shard->path, arrays_[0]);
       } catch (const SampleError& error) {
         shard->fault = without_name(error.what(), shard->path);
       }
@@ -262,7 +278,7 @@ class VolumeVerification {
     const auto chunks = static_cast<std::size_t>(chunks_of_shard(arrays_[0].layout).total());
     std::mutex faults_mutex;
     tbb::parallel_for(std::size_t{0}, shard.shard ? chunks : 0, [&](std::size_t chunk) {
-      if (shard.shard->encoded(chunk).empty()) {
+      if (!shard.shard->stores(chunk)) {
         return;
       }
       try {
@@ -290,11 +306,6 @@ class VolumeVerification {
            cv::Rect(0, 0, static_cast<int>(array.size.x), static_cast<int>(array.size.y));
   }
 
-  std::int64_t layers_present(std::size_t level) const {
-    const std::int64_t factor = group_.levels[level].z;
-    return (group_.layers_present + factor - 1) / factor;
-  }
-
   /// Layers `first` to before `end` of a column of shards. Throws SampleError.
   std::vector<cv::Mat> stored_layers(std::size_t level, std::int64_t first, std::int64_t end,
                                      std::int64_t y, std::int64_t x) const {
@@ -304,8 +315,7 @@ class VolumeVerification {
     for (std::int64_t layer = first; layer < end;) {
       const std::int64_t z = layer / depth;
       const std::int64_t count = std::min(end, (z + 1) * depth) - layer;
-      const auto shard =
-          StoredShard::read(shard_path({level, z, y, x}), chunks_of_shard(array.layout));
+      const auto shard = StoredShard::open(shard_path({level, z, y, x}), array);
       for (cv::Mat& each : shard_layers(shard, array, static_cast<int>(layer - z * depth),
                                         static_cast<int>(count), region(level, y, x).size())) {
         layers.push_back(std::move(each));
@@ -319,7 +329,7 @@ class VolumeVerification {
     const BlockCount shards = shards_of(arrays_[level]);
     const std::int64_t depth = arrays_[level].layout.shard[0];
     for (std::int64_t z = 0; z < shards.z; ++z) {
-      const std::int64_t end = std::min((z + 1) * depth, layers_present(level));
+      const std::int64_t end = std::min((z + 1) * depth, layers_present_at(group_, level));
       for (std::int64_t y = 0; y < shards.y; ++y) {
         for (std::int64_t x = 0; x < shards.x; ++x) {
           if (z * depth < end) {
@@ -366,7 +376,8 @@ class VolumeVerification {
     const BlockCount shards = shards_of(arrays_[finer]);
     const std::int64_t depth = arrays_[finer].layout.shard[0];
     const std::int64_t finer_first = axes.z ? 2 * first : first;
-    const std::int64_t finer_end = std::min(axes.z ? 2 * end : end, layers_present(finer));
+    const std::int64_t finer_end =
+        std::min(axes.z ? 2 * end : end, layers_present_at(group_, finer));
     const cv::Rect whole = region(place.level, place.y, place.x);
     std::vector<cv::Mat> means(static_cast<std::size_t>(end - first));
     for (cv::Mat& mean : means) {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/layer_band.hpp"
+#include "reconstruct/store/metadata_text.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 
 namespace biotomy::reconstruct {
@@ -17,18 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMetadataName = "zarr.json";
-
 fs::path array_path(const fs::path& volume, std::size_t level) {
   return volume / level_path(static_cast<int>(level)) / kMetadataName;
-}
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    throw SampleError(path.string() + ": cannot be opened");
-  }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 // Two neighbours that a level takes the mean of must lie in one shard.
@@ -64,6 +53,7 @@ VolumeWriter::VolumeWriter(const SampleFolder& sample, const VolumeLayout& layou
 void VolumeWriter::create() {
   check_shards_halve(array_);
   factors_ = pyramid_factors(sample_.description().cuboid, array_.layout.chunk);
+  every_shard_ = true;
   const std::vector<ZarrArray> arrays = level_arrays(array_, factors_);
   for (std::size_t level = 0; level < arrays.size(); ++level) {
     const fs::path path = array_path(volume_, level);
@@ -75,9 +65,11 @@ void VolumeWriter::create() {
 
 void VolumeWriter::open() {
   const fs::path group_path = volume_ / kMetadataName;
-  const VolumeMetadata group = parse_group_metadata(read_text(group_path), group_path.string());
+  const VolumeMetadata group =
+      parse_group_metadata(read_metadata_file(group_path), group_path.string());
   const fs::path finest_path = array_path(volume_, 0);
-  const ZarrArray finest = parse_array_metadata(read_text(finest_path), finest_path.string());
+  const ZarrArray finest =
+      parse_array_metadata(read_metadata_file(finest_path), finest_path.string());
   const SampleDescription& description = sample_.description();
   if (finest.size != description.cuboid.size || finest.bits != description.bits ||
       group.spacing != description.cuboid.spacing || group.layers_present > finest.size.z) {
@@ -93,6 +85,7 @@ void VolumeWriter::open() {
   }
   check_shards_halve(array_);
   layers_written_ = group.layers_present;
+  every_shard_ = group.every_shard;
 }
 
 void VolumeWriter::write_group(std::int64_t layers_present) const {
@@ -103,12 +96,13 @@ void VolumeWriter::write_group(std::int64_t layers_present) const {
   metadata.bits = description.bits;
   metadata.levels = factors_;
   metadata.layers_present = layers_present;
+  metadata.every_shard = every_shard_;
   write_durably(volume_ / kMetadataName, group_metadata(metadata));
 }
 
 void VolumeWriter::append_band(std::int64_t layer_count, const BandRegions& band) {
   const std::int64_t first = next_band();
-  PyramidWriter(volume_, array_, factors_).write_band(first, layer_count, band);
+  PyramidWriter(volume_, array_, factors_, every_shard_).write_band(first, layer_count, band);
   write_group(first + layer_count);
   layers_written_ = first + layer_count;
 }

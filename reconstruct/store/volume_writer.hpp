@@ -52,6 +52,7 @@ class VolumeWriter {
   ZarrArray array_;  // of level 0
   std::vector<LevelFactor> factors_;
   std::int64_t layers_written_ = 0;
+  bool every_shard_ = false;  // as the group says
 };
 
 }  // namespace biotomy::reconstruct

@@ -12,26 +12,34 @@ const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((name) 
 const zoom = 4; // pixels of the screen along the finest axis of a voxel
 
 /** The slice z, the middle of the block in the middle of the window. A voxel's centre has its number
- * as its coordinate, as OME-Zarr has it. */
+ * as its coordinate, as OME-Zarr has it. Nothing is said of colours: those are the metadata's. */
 function state(url, spacing, [nz, ny, nx], z) {
   const metres = spacing.map((um) => um * 1e-6);
-  const dimensions = { x: [metres[2], "m"], y: [metres[1], "m"], z: [metres[0], "m"] };
   return {
-    dimensions,
+    dimensions: { x: [metres[2], "m"], y: [metres[1], "m"], z: [metres[0], "m"] },
     position: [nx / 2, ny / 2, z],
     crossSectionScale: 1 / zoom,
-    layers: [{
-      type: "image", name: "volume",
-      source: {
-        url: `zarr3://${url}`,
-        transform: { outputDimensions: { "c^": [1, ""], z: dimensions.z, y: dimensions.y, x: dimensions.x } },
-      },
-      channelDimensions: { "c^": [1, ""] },
-      shader: "void main() { emitRGB(vec3(toNormalized(getDataValue(0)), toNormalized(getDataValue(1)), toNormalized(getDataValue(2)))); }",
-      shaderControls: {}, opacity: 1, crossSectionRenderScale: 1,
-    }],
+    layers: [{ type: "new", name: "volume", source: `zarr3://${url}` }],
+    selectedLayer: { layer: "volume", visible: true },
     layout: "xy", showAxisLines: false, showScaleBar: false, showDefaultAnnotations: false,
   };
+}
+
+/** Presses "Create as multi-channel image layer", as a person does who opens a volume by its URL, and
+ * closes the panel. */
+async function showAllChannels(page) {
+  const button = await page.waitForSelector("::-p-text(multi-channel image)", { visible: true, timeout: 60000 });
+  await button.click();
+  await page.waitForFunction(() => {
+    const layers = window.viewer.layerManager.managedLayers;
+    return layers.length === 3 && layers.every((layer) => layer.isReady());
+  }, { timeout: 60000 });
+  const names = await page.evaluate(() => {
+    window.viewer.selectedLayer.visible = false;
+    return window.viewer.layerManager.managedLayers.map(({ name }) => name).join(", ");
+  });
+  // Without omero it knows their numbers alone, and after a second stretches their contrast.
+  if (names !== "volume red, volume green, volume blue") throw new Error(`takes the channels for ${names}`);
 }
 
 async function screenshot(page, file) {
@@ -75,6 +83,7 @@ export async function checkNeuroglancer(name, store, finest, spacing, work, page
     await page.goto(`${server.origin}/page/index.html#!${encodeURIComponent(JSON.stringify(wanted))}`);
     const file = path.join(work, `neuroglancer-${name.replaceAll(/\W+/g, "-")}.png`);
     await check(name, `neuroglancer ${version}: slice z ${z}`, async () => {
+      await showAllChannels(page);
       await page.waitForFunction(() => window.viewer?.isReady?.(), { timeout: 60000 })
         .catch(() => { throw new Error(`is not ready: ${said.at(-1) ?? "it says nothing"}`); });
       const picture = await screenshot(page, file);

@@ -23,7 +23,7 @@ export function block([nz, ny, nx], bits) {
         for (let x = 0; x < nx; ++x) {
           const run = [x / nx, y / ny, z / nz][c];
           const value = highest * (0.1 + 0.7 * run) + (random.next().value / 255) * highest * 0.15;
-          // A corner of the block is black: chunks that are not stored are read too.
+          // A corner of the block is black: chunks that are not stored are read too, and a shard of nothing else.
           made.data[place++] = x < nx / 3 && y < ny / 3 && z < nz / 2 ? 0 : Math.round(value);
         }
   return made;

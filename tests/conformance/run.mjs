@@ -33,7 +33,7 @@ for (const { bits, colours, codec } of volumes) {
   writeImages(path.join(folder, "images"), made, bits);
   const { status, stderr } = spawnSync(tool, ["import", path.join(folder, "images"),
     "--spacing", spacing.toReversed().join(","), "--chunk", chunk.toReversed().join(","),
-    "--shard", "64,64,16", "--codec", codec, "--colours", colours,
+    "--shard", "32,32,16", "--codec", codec, "--colours", colours,
     "--layer-compression", "deflate", "-o", sample], { encoding: "utf8" });
   if (status !== 0) {
     fail(name, "biotomy import", stderr.trim());

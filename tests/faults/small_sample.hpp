@@ -37,10 +37,20 @@ inline std::vector<std::string> import_command(const std::filesystem::path& imag
           "16,16,2",    "--shard", "32,32,2", "-o",        sample};
 }
 
-/// The picture of a plane through all layers.
+/// The picture of a plane through all layers, of pixels that are as large as a voxel of the level
+/// (0 or 1), which is read for it.
 inline std::vector<std::string> section_command(const std::filesystem::path& sample,
-                                                const std::filesystem::path& picture) {
-  return {BIOTOMY_TOOL, "section", sample, "--points", "0,0,0 390,0,0 0,290,80", "-o", picture};
+                                                const std::filesystem::path& picture,
+                                                int level = 0) {
+  return {BIOTOMY_TOOL,
+          "section",
+          sample,
+          "--points",
+          "0,0,0 390,0,0 0,290,80",
+          "--pixel",
+          level == 0 ? "10" : "20",
+          "-o",
+          picture};
 }
 
 }  // namespace biotomy::tests

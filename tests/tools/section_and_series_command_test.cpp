@@ -181,6 +181,34 @@ TEST_F(SectionAndSeries, AFullDiskLeavesTheOldPicture) {
   EXPECT_EQ(read_file(path), before);
 }
 
+TEST_F(SectionAndSeries, WhatIsLostIsAnErrorUnlessItIsToleratedThenBackgroundAndAWarning) {
+  const fs::path shard = fs::path(sample_) / "volume.ome.zarr/0/c/0/0/0/0";
+  ASSERT_TRUE(fs::remove(shard));
+  EXPECT_THAT(message_of<SampleError>([&] { section(folder_ / "a.png"); }),
+              HasSubstr(shard.string() + ": is missing"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.png"));
+
+  testing::internal::CaptureStderr();
+  section(folder_ / "a.png", {"--tolerate-missing", "--background", "5,6,7"});
+  const std::string warning = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(warning, testing::MatchesRegex("biotomy: [0-9]+ chunks? cannot be read .*\n"));
+  EXPECT_THAT(warning, HasSubstr(shard.string() + ": is missing"));
+  EXPECT_TRUE(reconstruct::same_pixels(read_image_file(folder_ / "a.png"),
+                                       cv::Mat(30, 40, CV_8UC3, cv::Scalar(5, 6, 7))));
+
+  testing::internal::CaptureStderr();
+  rotation(folder_ / "turning", {"--tolerate-missing"});
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::MatchesRegex("biotomy: [0-9]+ chunks? cannot be read .*\n"));
+  EXPECT_EQ(names_in(folder_ / "turning").size(), 6U);
+}
+
+TEST_F(SectionAndSeries, AWholeSampleGivesNoWarning) {
+  testing::internal::CaptureStderr();
+  section(folder_ / "a.png", {"--tolerate-missing"});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(SectionAndSeries, ASeriesSaysWhatItIs) {
   rotation(folder_ / "turning");
   const nlohmann::json series = json_in(folder_ / "turning/series.json");

@@ -33,8 +33,14 @@ cv::Mat layer_image(int layer) {
   return image;
 }
 
-TEST(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
-  const TemporaryFolder folder;
+VolumeLayout small_layout() {
+  VolumeLayout layout;
+  layout.chunk = {8, 16, 16};
+  layout.shard = {8, 32, 32};
+  return layout;
+}
+
+SampleFolder noise_sample(const TemporaryFolder& folder) {
   SampleDescription description;
   description.name = "noise";
   description.cuboid = {{kLayerSize.width, kLayerSize.height, kLayers}, {10.0, 10.0, 25.0}};
@@ -44,14 +50,16 @@ TEST(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
     write_layer_image(sample.layer_path(layer), layer_image(layer),
                       {layer, description.cuboid.spacing}, {});
   }
-  VolumeLayout layout;
-  layout.chunk = {8, 16, 16};
-  layout.shard = {8, 32, 32};
-  VolumeWriter(sample, layout).append(kLayers, true);
+  VolumeWriter(sample, small_layout()).append(kLayers, true);
+  return sample;
+}
 
+TEST(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
+  const TemporaryFolder folder;
+  const SampleFolder sample = noise_sample(folder);
   const Volume volume = Volume::open(sample.volume_path());
   VolumeBricks source(volume, 1'000'000);
-  EXPECT_EQ(source.brick_shape(), layout.chunk);
+  EXPECT_EQ(source.brick_shape(), small_layout().chunk);
   EXPECT_EQ(source.bits(), 8);
   for (int layer = 1; layer <= kLayers; ++layer) {
     const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, (layer - 1) * 25.0});
@@ -170,6 +178,30 @@ TEST_P(VolumeWithATail, PaintsWhatADamagedLayerTakesAlongWhenThatIsTolerated) {
 
 INSTANTIATE_TEST_SUITE_P(, VolumeWithATail, testing::Values(8, 16),
                          [](const auto& bits) { return std::to_string(bits.param) + "Bits"; });
+
+TEST(VolumeAsBricks, GivesAColourForWhatIsDamagedWhenItIsToleratedAndCountsEachChunkOnce) {
+  const TemporaryFolder folder;
+  const SampleFolder sample = noise_sample(folder);
+  const auto shard = sample.volume_path() / "0" / "c" / "0" / "0" / "0" / "1";  // x from 32
+  ASSERT_TRUE(std::filesystem::remove(shard));
+  const Volume volume = Volume::open(sample.volume_path());
+  const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 25.0});
+  const SectionRequest request{plane, section_basis(BasisKind::layer, plane), {}};
+
+  VolumeBricks strict(volume, 1'000'000);
+  EXPECT_EQ(message_of<SampleError>([&] { cut_section(strict, request); }).find(shard.string()),
+            0U);
+
+  VolumeBricks tolerant(volume, 0, {true, {1, 2, 3}});  // no cache: asked for at each section
+  EXPECT_EQ(tolerant.damage().chunks, 0);
+  cv::Mat expected = layer_image(2);
+  expected(cv::Rect(32, 0, kLayerSize.width - 32, 32)).setTo(cv::Scalar(1, 2, 3));
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(cv::norm(cut_section(tolerant, request).image, expected, cv::NORM_INF), 0.0);
+  }
+  EXPECT_EQ(tolerant.damage().chunks, 4);
+  EXPECT_EQ(tolerant.damage().first.find(shard.string() + ": is missing"), 0U);
+}
 
 }  // namespace
 }  // namespace biotomy::reconstruct

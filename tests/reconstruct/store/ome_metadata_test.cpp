@@ -55,11 +55,13 @@ TEST(OmeMetadata, RefusesLevelsByOtherNames) {
 
 TEST(OmeMetadata, ShowsTheThreeColoursInTheirFullRange) {
   const auto group = nlohmann::json::parse(group_metadata(example()));
-  const auto& channels = group.at("attributes").at("ome").at("omero").at("channels");
+  const auto& attributes = group.at("attributes");
+  const auto& channels = attributes.at("ome").at("omero").at("channels");
   ASSERT_EQ(channels.size(), 3U);
   EXPECT_EQ(channels.at(0).at("color"), "FF0000");
   EXPECT_EQ(channels.at(2).at("color"), "0000FF");
   EXPECT_EQ(channels.at(1).at("window").at("end"), 65535);
+  EXPECT_EQ(attributes.at("omero"), attributes.at("ome").at("omero"));
 }
 
 TEST(OmeMetadata, RefusesAnotherVersion) {
@@ -73,6 +75,29 @@ TEST(OmeMetadata, RefusesANegativeNumberOfLayers) {
   auto group = nlohmann::json::parse(group_metadata(example()));
   group["attributes"]["biotomy"]["layers_present"] = -1;
   EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
+}
+
+TEST(OmeMetadata, ClaimsThatEveryShardIsStoredOnlyWhereItIsSo) {
+  VolumeMetadata metadata = example();
+  EXPECT_FALSE(nlohmann::json::parse(group_metadata(metadata))
+                   .at("attributes")
+                   .at("biotomy")
+                   .contains("every_shard"));
+  metadata.every_shard = true;
+  EXPECT_EQ(parse_group_metadata(group_metadata(metadata), "g"), metadata);
+  auto group = nlohmann::json::parse(group_metadata(metadata));
+  group["attributes"]["biotomy"]["every_shard"] = "yes";
+  EXPECT_THROW(parse_group_metadata(group.dump(), "g"), SampleError);
+}
+
+TEST(OmeMetadata, ALayerOfALevelIsPresentWithTheFirstThatItIsMadeOf) {
+  VolumeMetadata metadata = example();  // factors 1, 1 and 2 along z
+  metadata.layers_present = 5;
+  EXPECT_EQ(layers_present_at(metadata, 0), 5);
+  EXPECT_EQ(layers_present_at(metadata, 1), 5);
+  EXPECT_EQ(layers_present_at(metadata, 2), 3);
+  metadata.layers_present = 0;
+  EXPECT_EQ(layers_present_at(metadata, 2), 0);
 }
 
 TEST(OmeMetadata, RefusesAStoreWithoutOurOwnAttributes) {

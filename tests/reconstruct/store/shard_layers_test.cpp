@@ -17,8 +17,8 @@ TEST(ShardLayers, AreThoseThatWereWrittenFromAnyLayerOn) {
   layout.shard = {8, 16, 32};
   VolumeWriter(sample, layout).append(8, true);
   const ZarrArray array{{50, 21, 8}, 16, layout};
-  const auto shard = StoredShard::read(sample.volume_path() / "0" / "c" / "0" / "0" / "1" / "1",
-                                       chunks_of_shard(layout));
+  const auto shard =
+      StoredShard::open(sample.volume_path() / "0" / "c" / "0" / "0" / "1" / "1", array);
   ASSERT_TRUE(shard);
   const auto layers = shard_layers(shard, array, 3, 4, {18, 5});
   ASSERT_EQ(layers.size(), 4U);

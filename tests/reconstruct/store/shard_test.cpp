@@ -33,8 +33,10 @@ TEST(Shard, FillValueIsAllOnesInTheIndex) {
   EXPECT_EQ(Bytes(shard.begin() + 1, shard.begin() + 17), filled(16, 0xFF));
 }
 
-TEST(Shard, OfNothingButFillValueIsEmpty) {
-  EXPECT_TRUE(encode_shard({{}, {}}).empty());
+TEST(Shard, OfNothingButFillValueIsAnIndexAlone) {
+  const Bytes shard = encode_shard({{}, {}});
+  EXPECT_EQ(shard.size(), shard_index_bytes(2));
+  EXPECT_EQ(parse_shard_index(shard, shard.size()), ShardIndex(2));
 }
 
 TEST(Shard, RefusesAnIndexWithAWrongChecksum) {

@@ -1,9 +1,15 @@
 #include "reconstruct/store/volume.hpp"
 
+#include <array>
+#include <fstream>
+
 #include <gmock/gmock.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/store/ome_metadata.hpp"
+#include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/volume_writer.hpp"
+#include "reconstruct/store/zarr_array.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
@@ -120,6 +126,54 @@ TEST_F(VolumeOnDisk, TruncatedShardIsAnError) {
   EXPECT_THAT(error_of_reading({0, 0, 2}), HasSubstr("shorter than its index"));
 }
 
+TEST_F(VolumeOnDisk, AMissingShardOfAnyLevelIsNamed) {
+  for (int level = 0; level < open().levels(); ++level) {
+    const auto shard = sample_.volume_path() / std::to_string(level) / "c" / "0" / "0" / "0" / "0";
+    ASSERT_TRUE(std::filesystem::remove(shard));
+    const std::string expected = shard.string() + ": is missing";
+    EXPECT_THAT(message_of<SampleError>([&] {
+                  open().read_chunk(level, {0, 0, 0});
+                }),
+                StartsWith(expected));
+    std::vector<std::string> heard;
+    const std::array<ChunkIndex, 1> wanted{ChunkIndex{0, 0, 0}};
+    open().read_chunks(
+        level, wanted, [](auto, auto) { ADD_FAILURE() << "there is no such chunk"; },
+        [&](std::size_t, const SampleError& error) { heard.emplace_back(error.what()); });
+    EXPECT_THAT(heard, testing::ElementsAre(StartsWith(expected)));
+  }
+}
+
+TEST_F(VolumeOnDisk, AMissingShardIsFillValueWhereNoLayerIsYet) {
+  const auto growing = sample_with_layers(folder_.path() / "g", {30, 20, 16}, 8, 8);
+  VolumeWriter(growing, open().layout()).append(8, false);
+  const Volume volume = Volume::open(growing.volume_path());
+  EXPECT_NE(volume.read_chunk(0, {1, 0, 0}), nullptr);
+  EXPECT_EQ(volume.read_chunk(0, {2, 0, 0}), nullptr);  // z from 8
+}
+
+TEST_F(VolumeOnDisk, AMissingShardIsFillValueWhereNotEveryOneIsStored) {
+  const auto group = sample_.volume_path() / "zarr.json";
+  const auto text = read_file(group);
+  VolumeMetadata metadata = parse_group_metadata(
+      {reinterpret_cast<const char*>(text.data()), text.size()}, group.string());
+  metadata.every_shard = false;
+  write_text(group, group_metadata(metadata));
+  std::filesystem::remove(shard_);
+  EXPECT_EQ(open().read_chunk(0, {0, 0, 2}), nullptr);
+  EXPECT_NE(open().read_chunk(0, {0, 0, 0}), nullptr);
+}
+
+TEST_F(VolumeOnDisk, AShardOfManyHolesCostsNoMemory) {
+  const auto whole = read_file(shard_);
+  const std::size_t index_bytes = shard_index_bytes(4);
+  std::filesystem::resize_file(shard_, std::uintmax_t{1} << 40);
+  std::ofstream(shard_, std::ios::binary | std::ios::app)
+      .write(reinterpret_cast<const char*>(whole.data() + whole.size() - index_bytes),
+             static_cast<std::streamsize>(index_bytes));
+  EXPECT_NE(open().read_chunk(0, {0, 0, 2}), nullptr);
+}
+
 TEST_F(VolumeOnDisk, ReadsAWholeOldOrNewChunkThoughItsShardIsReplacedMeanwhile) {
   const auto old_voxels = open().read_chunk(0, {0, 0, 3});
   const Volume volume = open();
@@ -153,6 +207,21 @@ TEST_F(VolumeOnDisk, RefusesDamagedMetadata) {
   EXPECT_THAT(error_of_opening(), HasSubstr("is missing"));
   truncate_file(sample_.volume_path() / "zarr.json", 0.5);
   EXPECT_THAT(error_of_opening(), HasSubstr("is not the metadata of a volume"));
+}
+
+TEST_F(VolumeOnDisk, NamesTheArrayOfAnyLevelThatIsMissingOrDoesNotFit) {
+  for (int level = 0; level < open().levels(); ++level) {
+    const auto array = sample_.volume_path() / std::to_string(level) / "zarr.json";
+    const auto whole = read_file(array);
+    std::filesystem::remove(array);
+    EXPECT_THAT(error_of_opening(), StartsWith(array.string() + ": is missing"));
+    if (level > 0) {
+      write_text(array, array_metadata({{30, 20, 1000}, 8, {}}));
+      EXPECT_THAT(error_of_opening(), StartsWith(array.string() + ": does not fit level 0"));
+    }
+    write_file(array, whole);
+  }
+  EXPECT_NO_THROW(open());
 }
 
 }  // namespace

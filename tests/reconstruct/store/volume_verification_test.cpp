@@ -40,11 +40,11 @@ class VolumeVerification : public testing::Test {
   /// Stores the shard anew with one chunk of which one voxel is another.
   void change_a_voxel(const std::string& name) const {
     const BlockCount count = chunks_of_shard(layout_);
-    const auto shard = StoredShard::read(in_volume(name), count);
+    const auto shard = StoredShard::open(in_volume(name), {{70, 45, 15}, 8, layout_});
     const ChunkCodec codec(layout_, 8);
     std::vector<std::vector<std::byte>> chunks;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count.total()); ++i) {
-      chunks.emplace_back(shard->encoded(i).begin(), shard->encoded(i).end());
+      chunks.push_back(shard->encoded(i));
     }
     std::vector<std::byte> voxels(codec.chunk_bytes());
     shard->decode(0, codec, voxels);
@@ -145,7 +145,21 @@ TEST_F(VolumeVerification, FindsOnlyWhenDeepAVoxelThatIsNotTheLayersOrNotTheMean
               testing::Contains(AllOf(StartsWith("1/c/0/0/0/0: "), HasSubstr("mean of level 0"))));
 }
 
-TEST_F(VolumeVerification, FindsWhenDeepAShardThatIsLost) {
+TEST_F(VolumeVerification, FindsEveryShardThatIsLostOnce) {
+  std::filesystem::remove(in_volume("0/c/0/0/0/1"));
+  std::filesystem::remove(in_volume("2/c/0/0/0/0"));
+  for (const bool deep : {false, true}) {
+    EXPECT_THAT(findings(deep), ElementsAre(StartsWith("0/c/0/0/0/1: is missing"),
+                                            StartsWith("2/c/0/0/0/0: is missing")));
+  }
+}
+
+TEST_F(VolumeVerification, FindsAShardThatIsLostOnlyWhenDeepWhereNotEveryOneIsStored) {
+  const auto text = read_file(in_volume("zarr.json"));
+  VolumeMetadata metadata =
+      parse_group_metadata({reinterpret_cast<const char*>(text.data()), text.size()}, "zarr.json");
+  metadata.every_shard = false;
+  write_text(in_volume("zarr.json"), group_metadata(metadata));
   std::filesystem::remove(in_volume("0/c/0/0/0/1"));
   EXPECT_THAT(findings(), IsEmpty());
   EXPECT_THAT(findings(true), testing::Contains(StartsWith("0/c/0/0/0/1: ")));

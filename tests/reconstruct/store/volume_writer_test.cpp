@@ -6,6 +6,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
+#include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/volume.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
@@ -57,6 +58,11 @@ INSTANTIATE_TEST_SUITE_P(Layouts, EveryVolume,
 
 class Writer : public testing::Test {
  protected:
+  VolumeMetadata group() const {
+    const auto text = read_file(sample_.volume_path() / "zarr.json");
+    return parse_group_metadata({reinterpret_cast<const char*>(text.data()), text.size()},
+                                "zarr.json");
+  }
   std::int64_t present() const { return Volume::open(sample_.volume_path()).layers_present(); }
   bool layer_is_right(std::int64_t layer) const {
     return same_pixels(layer_of(Volume::open(sample_.volume_path()), layer),
@@ -138,14 +144,36 @@ TEST_F(Writer, RefusesAStoreOfAnotherSample) {
 
 TEST_F(Writer, RefusesAStoreWithoutItsLevelsAndTellsHowToMendIt) {
   VolumeWriter(sample_, small_layout()).append(8, false);
-  const auto group = sample_.volume_path() / "zarr.json";
-  const auto text = read_file(group);
-  VolumeMetadata metadata = parse_group_metadata(
-      {reinterpret_cast<const char*>(text.data()), text.size()}, group.string());
+  VolumeMetadata metadata = group();
   metadata.levels.resize(1);
-  write_text(group, group_metadata(metadata));
+  write_text(sample_.volume_path() / "zarr.json", group_metadata(metadata));
   EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(sample_, small_layout()); }),
               HasSubstr("biotomy rebuild " + sample_.path().string()));
+}
+
+TEST_F(Writer, KeepsWhatAStoreSaysOfItsShards) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  EXPECT_TRUE(group().every_shard);
+  VolumeMetadata older = group();
+  older.every_shard = false;
+  write_text(sample_.volume_path() / "zarr.json", group_metadata(older));
+  VolumeWriter(sample_, small_layout()).append(16, false);
+  EXPECT_EQ(group().layers_present, 16);
+  EXPECT_FALSE(group().every_shard);
+}
+
+TEST_F(Writer, NamesAShardOfAnEarlierBandThatIsLost) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  // The first level that halves z has the second band in the shard of the first.
+  const auto levels = group().levels;
+  std::size_t halved = 1;
+  while (levels[halved].z == 1) ++halved;
+  const auto lost = sample_.volume_path() / std::to_string(halved) / "c" / "0" / "0" / "0" / "0";
+  ASSERT_TRUE(std::filesystem::remove(lost));
+  EXPECT_THAT(
+      message_of<SampleError>([&] { VolumeWriter(sample_, small_layout()).append(16, false); }),
+      testing::StartsWith(lost.string() + ": is missing"));
+  EXPECT_EQ(group().layers_present, 8);
 }
 
 TEST_F(Writer, RefusesShardsOfAnOddWidthThatCannotBeHalvedOneByOne) {
@@ -166,7 +194,7 @@ TEST_F(Writer, MakesTheArraysOfAllLevelsWithTheStore) {
   EXPECT_EQ(volume.read_chunk(volume.levels() - 1, {0, 0, 0}), nullptr);
 }
 
-TEST_F(Writer, StoresNoShardThatIsAllFillValue) {
+TEST_F(Writer, StoresEveryShardOfItsLayersAlsoOneThatIsAllFillValue) {
   const auto black = sample_with_layers(folder_.path() / "b", {200, 40, 8}, 8, 0);
   for (std::int64_t layer = 1; layer <= 8; ++layer) {
     cv::Mat image(40, 200, CV_8UC3, cv::Scalar::all(0));
@@ -175,10 +203,14 @@ TEST_F(Writer, StoresNoShardThatIsAllFillValue) {
   }
   VolumeWriter(black, small_layout()).append(8, false);
   const auto rows = black.volume_path() / "0" / "c" / "0" / "0";
-  EXPECT_THAT(names_in(rows), testing::ElementsAre("0"));
-  EXPECT_THAT(names_in(rows / "0"), testing::ElementsAre("0"));
+  const ZarrArray array{{200, 40, 8}, 8, small_layout()};
+  const BlockCount shards = shards_of(array);
+  EXPECT_EQ(static_cast<std::int64_t>(names_in(rows).size()), shards.y);
+  EXPECT_EQ(static_cast<std::int64_t>(names_in(rows / "0").size()), shards.x);
+  EXPECT_EQ(std::filesystem::file_size(rows / "0" / "1"),
+            shard_index_bytes(static_cast<std::size_t>(chunks_of_shard(small_layout()).total())));
   EXPECT_EQ(Volume::open(black.volume_path()).read_chunk(0, {0, 0, 2}), nullptr);   // same shard
-  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk(0, {0, 2, 24}), nullptr);  // no shard
+  EXPECT_EQ(Volume::open(black.volume_path()).read_chunk(0, {0, 2, 24}), nullptr);  // another
 }
 
 }  // namespace
