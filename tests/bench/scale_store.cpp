@@ -1,7 +1,8 @@
 // Makes a sample of any size on disk that holds only the chunks which sections along given planes
 // touch, and those around them: what a section through it costs is what it costs in the whole, for
-// a hundredth of the disk. The metadata says that all layers are there. Its colours are made up
-// (made_up_tissue.hpp); those of coarser levels are voxels of level 0, not means.
+// a hundredth of the disk. The metadata says that all layers are there, and does not claim that
+// every shard is stored: what is not is fill value. Its colours are made up (made_up_tissue.hpp);
+// those of coarser levels are voxels of level 0, not means.
 //
 //   scale_store --planes FILE [--only NAME] -o SAMPLE [--size 10000,5000,5000] [--spacing 20,20,20]
 //               [--levels 0] [--noisy 0.05]

@@ -1,6 +1,7 @@
 // A library for LD_PRELOAD: calls on files below one folder fail as they do on a disk that is full,
 // broken or read-only. What fails, and when, is told by the environment (see fault.hpp). Programs
-// are not changed for it, and nobody needs to be root.
+// are not changed for it, and nobody needs to be root. The disk is one for a program and those that
+// it starts: they count their calls and bytes together.
 
 #include <atomic>
 #include <cerrno>
@@ -9,10 +10,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -35,6 +39,33 @@ int error_number(const std::string& name) {
   return name == "ENOSPC" ? ENOSPC : name == "EROFS" ? EROFS : EIO;
 }
 
+/// What has happened to the disk, of all processes.
+struct Counts {
+  std::atomic<std::int64_t> calls[kCalls]{};
+  std::atomic<std::int64_t> written{0};
+};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+/// Memory that the first process makes and the others find through it, as it outlives them.
+Counts& shared_counts() {
+  constexpr const char* kPlace = "BIOTOMY_FAULT_SHARED";
+  const bool is_first = *setting(kPlace) == '\0';
+  const int file =
+      is_first
+          ? ::memfd_create("faulty disk", MFD_CLOEXEC)
+          : static_cast<int>(::syscall(SYS_openat, AT_FDCWD, setting(kPlace), O_RDWR | O_CLOEXEC));
+  if (file < 0 || (is_first && ::syscall(SYS_ftruncate, file, sizeof(Counts)) != 0)) std::abort();
+  void* memory = ::mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) std::abort();
+  if (!is_first) {
+    ::close(file);
+    return *static_cast<Counts*>(memory);
+  }
+  const std::string place = "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(file);
+  ::setenv(kPlace, place.c_str(), 1);
+  return *new (memory) Counts;
+}
+
 class FaultyDisk {
  public:
   FaultyDisk()
@@ -49,7 +80,7 @@ class FaultyDisk {
     const char* path = setting("BIOTOMY_FAULT_COUNTS");
     if (std::FILE* file = *path != '\0' ? std::fopen(path, "w") : nullptr; file != nullptr) {
       for (int call = 0; call < kCalls; ++call) {
-        std::fprintf(file, "%s %lld\n", kNames[call], static_cast<long long>(counts_[call]));
+        std::fprintf(file, "%s %lld\n", kNames[call], static_cast<long long>(counts_.calls[call]));
       }
       std::fclose(file);
     }
@@ -70,7 +101,7 @@ class FaultyDisk {
 
   /// Counts the call; from the chosen one on it fails, with errno set.
   bool fails(Call call) {
-    const std::int64_t count = ++counts_[call];
+    const std::int64_t count = ++counts_.calls[call];
     const bool failing = first_ > 0 && call_ == kNames[call] && count >= first_;
     if (failing) errno = error_;
     return failing;
@@ -81,7 +112,7 @@ class FaultyDisk {
     if (fails(kWrite)) return -1;
     auto room = static_cast<std::int64_t>(at_most(bytes));
     if (space_ > 0) {
-      const std::int64_t before = written_.fetch_add(room);
+      const std::int64_t before = counts_.written.fetch_add(room);
       room = before + room <= space_ ? room : space_ - before;
       if (room <= 0) {
         errno = error_;
@@ -103,13 +134,17 @@ class FaultyDisk {
   std::int64_t first_;
   std::int64_t space_;
   std::int64_t most_bytes_;
-  std::atomic<std::int64_t> counts_[kCalls]{};
-  std::atomic<std::int64_t> written_{0};
+  Counts& counts_ = shared_counts();
 };
 
 FaultyDisk& disk() {
   static FaultyDisk instance;
   return instance;
+}
+
+// Before there are threads, as the environment is changed.
+[[gnu::constructor]] void make_disk() {
+  disk();
 }
 
 template <typename Function>

@@ -56,7 +56,7 @@ void write_metadata(const Seeds& seeds) {
               reconstruct::group_metadata({"knee", {10, 10, 20}, 8, {{}}, 0}));
   seeds.write("group_metadata", "three-levels",
               reconstruct::group_metadata(
-                  {"knee", {10.5, 11, 50}, 16, {{1, 1, 1}, {2, 2, 1}, {4, 4, 2}}, 96}));
+                  {"knee", {10.5, 11, 50}, 16, {{1, 1, 1}, {2, 2, 1}, {4, 4, 2}}, 96, true}));
   for (const ChunkKind& kind : chunk_kinds()) {
     seeds.write("array_metadata",
                 kind.layout.codec + (kind.layout.interleaved ? "-interleaved-" : "-planar-") +
