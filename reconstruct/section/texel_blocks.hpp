@@ -50,8 +50,8 @@ class TexelBlocks {
   /// Lays the voxels of a chunk (as ChunkVoxels has them) out as a brick.
   void lay_out(std::span<const std::byte> voxels, std::byte* brick) const;
 
-  /// How many bytes after a brick's end may be read: a row of blocks and a vector.
-  std::size_t slack() const { return static_cast<std::size_t>(block_row_bytes()) + 64; }
+  /// How many bytes after a brick's end may be read: a vector's.
+  static constexpr std::size_t slack() { return 64; }
 
  private:
   std::array<int, 3> shape_;

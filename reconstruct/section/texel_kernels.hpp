@@ -19,7 +19,7 @@ namespace biotomy::reconstruct {
 
 /// Positions within a brick in fixed point: an unsigned number of voxels with kFractionBits after
 /// the point. Whole steps are added to them, so nothing but the step's own rounding (2⁻²³ voxel at
-/// most) adds up, and a run is never longer than kLongestRun pixels.
+/// most) adds up; runs end before that is a level, and are never longer than kLongestRun pixels.
 inline constexpr int kFractionBits = 22;
 inline constexpr int kLongestBrickSide = 1 << (31 - kFractionBits);
 inline constexpr int kLongestRun = 256;

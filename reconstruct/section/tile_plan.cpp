@@ -9,6 +9,7 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr double kUnit = static_cast<double>(1U << kFractionBits);
+constexpr double kMostDrift = 0.9;  // levels: a run's last pixel against the exact one
 constexpr int kMostTexels = kLongestBrickSide - 1;  // that a position can count
 constexpr float kBelowOne = 0x1.fffffep-1F;
 constexpr std::size_t kRunsOfARow = 12;  // of a usual tile, so that little has to grow
@@ -32,6 +33,19 @@ void keep_inside(VoxelRow& place, const std::array<int, 3>& last) {
   }
 }
 
+/// After how many pixels the rounding of a row's step to fixed point has added up to kMostDrift,
+/// where neighbouring voxels are as different as they can be. With 8 bits no run is that long.
+int pixels_to_drift(const VoxelRow& place, const std::array<std::int32_t, 3>& step, int bits) {
+  double units = 0.0;  // a pixel
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    units += std::abs(place.step[axis] * kUnit - step[axis]);
+  }
+  const double levels = (1 << bits) - 1;
+  const double start = 3.0;  // units, at most, by which the three starts are rounded
+  const double pixels = (kMostDrift / levels * kUnit - start) / units;
+  return pixels < kLongestRun ? std::max(static_cast<int>(pixels), 1) : kLongestRun;
+}
+
 /// Rounded up; of a number from 0 on, without the call of a function.
 int ceiling(double number) {
   const int whole = static_cast<int>(number);
@@ -53,6 +67,7 @@ PictureRow::PictureRow(const BrickSource& source, int level, const PixelGrid& gr
                      : 0;
   }
   one_layer = place.step[2] == 0.0;
+  longest_run = pixels_to_drift(place, step, source.bits());
 }
 
 Support support_of(Interpolation kind) {
@@ -69,8 +84,7 @@ Support support_of(Interpolation kind) {
 
 /// Follows a row along one axis: up to which column its pixels' support stays in one brick. Where
 /// that is is told by floating point, where the kernels are by fixed point; at the seam they may
-/// differ by a ten-thousandth of a voxel, so that a texel behind the brick's end, weighing nothing,
-/// may be read: bricks have room for that (TexelBlocks::slack).
+/// differ by a ten-thousandth of a voxel, so positions are kept on the brick's side of it.
 class TilePlan::Walk {
  public:
   Walk() = default;
@@ -112,6 +126,7 @@ class TilePlan::Walk {
     if (voxel < low || voxel >= high) {
       return;
     }
+    end_ = high - origin_;
     free_ = true;
     crosses_ = may_cross_ && voxel + 1 == origin_ + side_;
     if (step_ > 0.0) {
@@ -140,7 +155,21 @@ class TilePlan::Walk {
     return side_ > kMostTexels ? std::max(0, texel - kMostTexels / 2) / kBlock * kBlock : 0;
   }
   std::uint32_t position(int column, int base) const {
-    return static_cast<std::uint32_t>((start_ + column * step_ - origin_ - base) * kUnit);
+    const double place = (start_ + column * step_ - origin_ - base) * kUnit;
+    return static_cast<std::uint32_t>(
+        std::clamp(place, 0.0, static_cast<double>(positions_from(base) - 1)));
+  }
+  /// How many of `count` pixels from a position on stay among the brick's. At most a last few
+  /// don't.
+  int kept(int count, std::uint32_t start, std::int32_t step, int base) const {
+    const auto out = [&](int pixel) {
+      const std::int64_t position = start + std::int64_t{pixel} * step;
+      return position < 0 || position >= positions_from(base);
+    };
+    while (count > 1 && out(count - 1)) {
+      --count;
+    }
+    return count;
   }
   /// How many columns from `column` on keep within what a position can count.
   int reach(int column, int base) const {
@@ -154,7 +183,8 @@ class TilePlan::Walk {
 
  private:
   static constexpr int kNever = 1 << 30;
-  static int clamped(double column) { return static_cast<int>(std::min<double>(column, kNever)); }
+
+  std::int64_t positions_from(int base) const { return std::int64_t{end_ - base} << kFractionBits; }
 
   const VoxelPlaces* places_ = nullptr;
   int side_ = 0;
@@ -171,6 +201,7 @@ class TilePlan::Walk {
   bool crosses_ = false;
   int slot_ = 0;
   int origin_ = 0;
+  int end_ = 0;  // the texel after those at which a support within the brick may be
 };
 
 TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, const Tile& tile,
@@ -273,11 +304,12 @@ PlannedRun TilePlan::run_of(const PlannedRow& row, const std::array<Walk, 3>& wa
                             int end) {
   PlannedRun run;
   run.column = column;
-  run.count = std::min(end - column, kLongestRun);
+  run.count = std::min(end - column, row.longest_run);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     run.base[axis] = walks[axis].base(column);
     run.start[axis] = walks[axis].position(column, run.base[axis]);
     run.count = std::min(run.count, walks[axis].reach(column, run.base[axis]));
+    run.count = walks[axis].kept(run.count, run.start[axis], row.step[axis], run.base[axis]);
   }
   const int slot = walks[0].slot() + walks[1].slot() + walks[2].slot();
   run.brick = need(slot);

@@ -60,6 +60,7 @@ struct PictureRow {
   std::array<bool, 3> on_centres{};    ///< all pixels lie on voxel centres along this axis
   std::array<std::int32_t, 3> step{};  ///< in fixed point
   bool one_layer = false;              ///< the row stays between two layers
+  int longest_run = 1;                 ///< pixels until rounded steps add up to a level
 
   PictureRow() = default;
   PictureRow(const BrickSource& source, int level, const PixelGrid& grid, int number);
