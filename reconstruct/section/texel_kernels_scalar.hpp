@@ -39,7 +39,9 @@ void place_run(const TexelRun& run, PixelPlaces<Level>& places, std::size_t firs
     for (int row = 0; row < 2; ++row) {
       const std::ptrdiff_t to = offset + along_y(texel[1] + row * run.next_row);
       places.upper[static_cast<std::size_t>(row)][first + i] = run.upper + to;
-      places.lower[static_cast<std::size_t>(row)][first + i] = run.lower + to;
+      if (places.crosses) {
+        places.lower[static_cast<std::size_t>(row)][first + i] = run.lower + to;
+      }
     }
     places.x[first + i] = PixelPlaces<Level>::part(part[0]);
     places.y[first + i] = PixelPlaces<Level>::part(part[1]);

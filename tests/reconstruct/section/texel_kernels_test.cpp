@@ -1,0 +1,408 @@
+#include "reconstruct/section/texel_kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/section/texel_kernels_scalar.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+template <typename Level>
+class TexelKernels : public testing::Test {};
+
+using BothDepths = testing::Types<std::uint8_t, std::uint16_t>;
+TYPED_TEST_SUITE(TexelKernels, BothDepths);
+
+/// Lets the kernels run on vectors of one width, whatever this processor's widest is.
+class VectorWidth {
+ public:
+  explicit VectorWidth(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
+  ~VectorWidth() { hwy::SetSupportedTargetsForTest(0); }
+  VectorWidth(const VectorWidth&) = delete;
+  VectorWidth& operator=(const VectorWidth&) = delete;
+};
+
+/// Each width that was compiled and that this processor has; the report says which they were.
+void for_each_vector_width(const std::function<void()>& check) {
+  std::string names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const VectorWidth width(target);
+    check();
+    names += std::string(names.empty() ? "" : " ") + hwy::TargetName(target);
+  }
+  EXPECT_FALSE(names.empty());
+  std::cout << "on " << names << '\n';
+}
+
+/// Bytes in a buffer of just their number: AddressSanitizer finds who reads or writes one more.
+struct ExactBytes {
+  std::size_t size;
+  std::unique_ptr<std::byte[]> bytes = std::make_unique<std::byte[]>(size);
+
+  explicit ExactBytes(std::size_t count) : size(count) {}
+};
+
+/// A brick of noise with its slack, and nothing behind it.
+template <typename Level>
+struct NoisyBrick {
+  std::array<int, 3> shape;  // z, y, x
+  TexelBlocks blocks{shape, 8 * static_cast<int>(sizeof(Level))};
+  ExactBytes memory{blocks.brick_bytes() + TexelBlocks::slack()};
+
+  NoisyBrick(const std::array<int, 3>& zyx, std::mt19937& random) : shape(zyx) {
+    ExactBytes voxels(static_cast<std::size_t>(shape[0] * shape[1] * shape[2]) * 3 * sizeof(Level));
+    for (std::size_t i = 0; i < voxels.size; ++i) {
+      // Extreme levels are where arithmetic overflows.
+      const auto value = random() % 4 == 0 ? (random() % 2 == 0 ? 0U : 255U) : random();
+      voxels.bytes[i] = static_cast<std::byte>(value & 255U);
+    }
+    blocks.lay_out({voxels.bytes.get(), voxels.size}, memory.bytes.get());
+  }
+
+  const std::byte* texels() const { return memory.bytes.get(); }
+  int side(std::size_t axis) const { return shape[2 - axis]; }
+};
+
+constexpr std::uint32_t kVoxel = 1U << kFractionBits;
+
+/// A run of `count` pixels between two random places of a brick, each with a neighbour behind it
+/// along the axes along which the pixels don't lie on centres; steps may be 0 or go back.
+template <typename Level>
+TexelRun random_run(const NoisyBrick<Level>& upper, const NoisyBrick<Level>& lower, int count,
+                    std::mt19937& random) {
+  TexelRun run;
+  run.upper = upper.texels();
+  run.lower = lower.texels();
+  run.block_row_bytes = upper.blocks.block_row_bytes();
+  run.layer_bytes = upper.blocks.layer_bytes();
+  run.next_row = random() % 4 == 0 ? 0 : 1;
+  run.count = count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool alone = axis == 1 && run.next_row == 0;
+    const auto places = static_cast<std::uint32_t>(upper.side(axis) - (alone ? 0 : 1)) * kVoxel;
+    const std::uint32_t to = random() % places;
+    run.start[axis] = random() % 5 == 0 ? places - 1 : random() % places;
+    if (random() % 4 != 0) {
+      run.step[axis] =
+          (static_cast<std::int32_t>(to) - static_cast<std::int32_t>(run.start[axis])) /
+          std::max(count, 1);
+    }
+  }
+  return run;
+}
+
+constexpr std::array<int, 3> kShape{6, 11, 13};
+
+// The room behind the last pixel belongs to the kernels; what lies behind that, and before the
+// first, does not.
+TYPED_TEST(TexelKernels, PlaceRunsAsTheScalarOnesDo) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(1);
+    const NoisyBrick<Level> upper(kShape, random);
+    const NoisyBrick<Level> lower(kShape, random);
+    for (int count = 1; count <= kLongestRun; ++count) {
+      const TexelRun run = random_run(upper, lower, count, random);
+      constexpr std::size_t kFirst = 3;
+      const std::size_t end = kFirst + static_cast<std::size_t>(count);
+      for (const bool crosses : {false, true}) {
+        PixelPlaces<Level> places;
+        PixelPlaces<Level> wanted;
+        for (PixelPlaces<Level>* each : {&places, &wanted}) {
+          each->crosses = crosses;
+          each->resize(end + 8);
+        }
+        const PixelPlaces<Level> before = places;
+        place_run(run, places, kFirst);
+        scalar::place_run(run, wanted, kFirst);
+        const auto expect_same = [&](const auto& got, const auto& want, const auto& untouched) {
+          ASSERT_TRUE(std::equal(got.begin(), got.begin() + kFirst, untouched.begin()));
+          ASSERT_TRUE(std::equal(got.begin() + kFirst, got.begin() + end, want.begin() + kFirst))
+              << count;
+          ASSERT_TRUE(std::equal(got.begin() + end + kRoomPixels, got.end(),
+                                 untouched.begin() + end + kRoomPixels));
+        };
+        for (std::size_t row = 0; row < 2; ++row) {
+          expect_same(places.upper[row], wanted.upper[row], before.upper[row]);
+          if (crosses) {
+            expect_same(places.lower[row], wanted.lower[row], before.lower[row]);
+          } else {
+            ASSERT_EQ(places.lower[row], before.lower[row]);
+          }
+        }
+        expect_same(places.x, wanted.x, before.x);
+        expect_same(places.y, wanted.y, before.y);
+        expect_same(places.z, wanted.z, before.z);
+      }
+    }
+  });
+}
+
+TYPED_TEST(TexelKernels, PlaceNoPixelBehindARunOutsideTheBrick) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(2);
+    const NoisyBrick<Level> brick(kShape, random);
+    const TexelRun run = random_run(brick, brick, 1, random);
+    PixelPlaces<Level> places;
+    places.resize(1);
+    place_run(run, places, 0);
+    const std::byte* const last = places.upper[1][0];
+    for (const std::byte* place : places.upper[1]) {
+      EXPECT_TRUE(place == last || place == nullptr);  // the last again, or not written
+    }
+  });
+}
+
+/// Places of random texels of two bricks, with random parts, some at their ends.
+template <typename Level>
+PixelPlaces<Level> random_places(const NoisyBrick<Level>& upper, const NoisyBrick<Level>& lower,
+                                 std::size_t count, bool crosses, std::mt19937& random) {
+  PixelPlaces<Level> places;
+  places.resize(count);
+  places.crosses = crosses;
+  places.down = upper.blocks.layer_bytes();
+  for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
+    const auto along = [&](std::size_t axis, int neighbours) {
+      const auto texels = static_cast<unsigned>(upper.side(axis) - neighbours);
+      return upper.blocks.along(axis, static_cast<int>(random() % texels));
+    };
+    // Without a brick below the layers go as far as the last but one; the pair begins anywhere.
+    const int place = along(0, 0) + along(1, 0) + along(2, crosses ? 0 : 1);
+    const int next = along(0, 0) + along(1, 0) + along(2, crosses ? 0 : 1);
+    places.upper[0][i] = upper.texels() + place;
+    places.upper[1][i] = upper.texels() + next;
+    places.lower[0][i] = lower.texels() + place;
+    places.lower[1][i] = lower.texels() + next;
+    for (auto* parts : {&places.x, &places.y, &places.z}) {
+      const std::array<float, 4> values{0.0F, 0x1.fffffep-1F, 0.5F,
+                                        static_cast<float>(random() % 100'000) / 100'000.0F};
+      (*parts)[i] = PixelPlaces<Level>::part(values[random() % 4]);
+    }
+  }
+  return places;
+}
+
+/// Pixels as a kernel wrote them: room for whole vectors, and something behind it that must stay.
+template <typename Level>
+struct Pixels {
+  static constexpr Level kUntouched = 77;
+  std::vector<Level> levels;
+
+  explicit Pixels(std::size_t count) : levels(4 * (count + kRoomPixels + 8), kUntouched) {}
+
+  bool is_untouched_behind(std::size_t count) const {
+    return std::all_of(levels.begin() + static_cast<std::ptrdiff_t>(4 * (count + kRoomPixels)),
+                       levels.end(), [](Level level) { return level == kUntouched; });
+  }
+};
+
+TYPED_TEST(TexelKernels, MixLinearlyAsTheScalarOnesDo) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    constexpr int kOff = sizeof(Level) == 1 ? 0 : 1;  // 8 bits: to the bit
+    std::mt19937 random(3);
+    const NoisyBrick<Level> upper(kShape, random);
+    const NoisyBrick<Level> lower(kShape, random);
+    for (std::size_t count = 1; count <= 300; count += count < 40 ? 1 : 13) {
+      for (const bool crosses : {false, true}) {
+        const PixelPlaces<Level> places = random_places(upper, lower, count, crosses, random);
+        Pixels<Level> got(count);
+        Pixels<Level> wanted(count);
+        mix_linear(places, count, got.levels.data());
+        scalar::mix_linear(places, count, wanted.levels.data());
+        for (std::size_t i = 0; i < count; ++i) {
+          for (std::size_t colour = 0; colour < 3; ++colour) {
+            ASSERT_LE(std::abs(got.levels[4 * i + colour] - wanted.levels[4 * i + colour]), kOff)
+                << "pixel " << i << " of " << count;
+          }
+        }
+        ASSERT_TRUE(got.is_untouched_behind(count));
+      }
+    }
+  });
+}
+
+// The scalar kernels against the definition, so that what the others are held against is right.
+TYPED_TEST(TexelKernels, MixLinearlyWithinALevelOfExactArithmetic) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(4);
+    const NoisyBrick<Level> upper(kShape, random);
+    const NoisyBrick<Level> lower(kShape, random);
+    constexpr std::size_t kCount = 1000;
+    const double unit = sizeof(Level) == 1 ? 32768.0 : 1.0;
+    for (const bool crosses : {false, true}) {
+      const PixelPlaces<Level> places = random_places(upper, lower, kCount, crosses, random);
+      Pixels<Level> got(kCount);
+      mix_linear(places, kCount, got.levels.data());
+      for (std::size_t i = 0; i < kCount; ++i) {
+        for (int colour = 0; colour < 3; ++colour) {
+          double sum = 0.0;
+          for (std::size_t row = 0; row < 2; ++row) {
+            for (int x = 0; x < 2; ++x) {
+              const std::byte* above = places.upper[row][i];
+              const std::byte* below = crosses ? places.lower[row][i] : above + places.down;
+              const double z = places.z[i] / unit;
+              const double y = places.y[i] / unit;
+              const double weight_x = x == 0 ? 1.0 - places.x[i] / unit : places.x[i] / unit;
+              sum += (row == 0 ? 1.0 - y : y) * weight_x *
+                     ((1.0 - z) * scalar::level_of<Level>(above, x, colour) +
+                      z * scalar::level_of<Level>(below, x, colour));
+            }
+          }
+          ASSERT_NEAR(got.levels[4 * i + static_cast<std::size_t>(colour)], sum,
+                      0.5 + (sizeof(Level) == 1 ? 0.03 : 0.04));
+        }
+      }
+    }
+  });
+}
+
+TYPED_TEST(TexelKernels, GiveAVoxelsOwnColourAtItsCentre) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(5);
+    const NoisyBrick<Level> brick(kShape, random);
+    constexpr std::size_t kCount = 500;
+    PixelPlaces<Level> places = random_places(brick, brick, kCount, true, random);
+    for (auto* parts : {&places.x, &places.y, &places.z}) {
+      std::fill(parts->begin(), parts->end(), typename PixelPlaces<Level>::Part{0});
+    }
+    Pixels<Level> got(kCount);
+    mix_linear(places, kCount, got.levels.data());
+    for (std::size_t i = 0; i < kCount; ++i) {
+      for (int colour = 0; colour < 3; ++colour) {
+        ASSERT_EQ(got.levels[4 * i + static_cast<std::size_t>(colour)],
+                  scalar::level_of<Level>(places.upper[0][i], 0, colour));
+      }
+    }
+  });
+}
+
+/// The exact colour at `part` between 4³ texels; what the kernel clamps is not clamped yet.
+template <typename Level>
+double exact_cubic(const std::array<Level, 256>& texels, const std::array<float, 3>& part,
+                   std::size_t colour) {
+  std::array<std::array<double, 4>, 3> weights{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double t = part[axis];
+    for (int i = 0; i < 4; ++i) {  // Keys 1981, equation 15: u is the distance to the texel
+      const double u = std::abs(t + 1.0 - i);
+      weights[axis][static_cast<std::size_t>(i)] =
+          u < 1.0 ? 1.5 * u * u * u - 2.5 * u * u + 1.0
+                  : (u < 2.0 ? -0.5 * u * u * u + 2.5 * u * u - 4.0 * u + 2.0 : 0.0);
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 64; ++i) {
+    sum += weights[0][i % 4] * weights[1][i / 4 % 4] * weights[2][i / 16] * texels[4 * i + colour];
+  }
+  return sum;
+}
+
+TYPED_TEST(TexelKernels, MixCubicallyAsTheScalarOnesAndExactArithmeticDo) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    constexpr double kMost = std::numeric_limits<Level>::max();
+    std::mt19937 random(6);
+    int clamped = 0;
+    for (int round = 0; round < 1000; ++round) {
+      std::array<Level, 256> texels{};
+      for (Level& level : texels) {
+        level = static_cast<Level>(round % 2 == 0 ? random() : (random() % 2) * 65535);
+      }
+      std::array<float, 3> part{};
+      for (float& each : part) {
+        each = random() % 5 == 0 ? 0.0F : static_cast<float>(random() % 1000) / 1000.0F;
+      }
+      std::array<Level, 4> got{};
+      std::array<Level, 4> wanted{};
+      mix_cubic(texels.data(), part, got.data());
+      scalar::mix_cubic(texels.data(), part, wanted.data());
+      for (std::size_t colour = 0; colour < 3; ++colour) {
+        const double exact = exact_cubic(texels, part, colour);
+        clamped += exact < 0.0 || exact > kMost ? 1 : 0;
+        ASSERT_LE(std::abs(got[colour] - wanted[colour]), 1);
+        ASSERT_NEAR(got[colour], std::clamp(exact, 0.0, kMost), 0.6);
+      }
+    }
+    EXPECT_GT(clamped, 10);
+  });
+}
+
+TYPED_TEST(TexelKernels, PackPixelsAndNothingElse) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(7);
+    for (std::size_t count = 0; count <= 200; ++count) {
+      const auto pixels = std::make_unique<Level[]>(4 * count);
+      for (std::size_t i = 0; i < 4 * count; ++i) {
+        pixels[i] = static_cast<Level>(random());
+      }
+      const auto rgb = std::make_unique<Level[]>(3 * count);
+      pack_pixels(pixels.get(), count, rgb.get());
+      for (std::size_t i = 0; i < 3 * count; ++i) {
+        ASSERT_EQ(rgb[i], pixels[i / 3 * 4 + i % 3]) << i << " of " << count;
+      }
+    }
+  });
+}
+
+TYPED_TEST(TexelKernels, ReadNothingBehindABricksSlack) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(8);
+    for (const auto& shape : {kShape, std::array<int, 3>{1, 1, 1}, std::array<int, 3>{1, 8, 4},
+                              std::array<int, 3>{3, 2, 5}}) {
+      const NoisyBrick<Level> brick(shape, random);
+      // The last texel of all: what stands where its neighbours would be weighs nothing.
+      TexelRun run;
+      run.upper = brick.texels();
+      run.lower = brick.texels();
+      run.block_row_bytes = brick.blocks.block_row_bytes();
+      run.layer_bytes = brick.blocks.layer_bytes();
+      run.next_row = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        run.start[axis] = static_cast<std::uint32_t>(brick.side(axis) - 1) * kVoxel;
+      }
+      run.count = 5;
+      PixelPlaces<Level> places;
+      places.resize(5);
+      place_run(run, places, 0);
+      for (std::size_t i = 5; i < 5 + kRoomPixels; ++i) {
+        places.upper[0][i] = places.upper[0][0];
+        places.upper[1][i] = places.upper[1][0];
+      }
+      Pixels<Level> got(5);
+      mix_linear(places, 5, got.levels.data());
+      const std::byte* const last = brick.texels() + brick.blocks.along_x(shape[2] - 1) +
+                                    brick.blocks.along_y(shape[1] - 1) +
+                                    brick.blocks.along_z(shape[0] - 1);
+      for (std::size_t i = 0; i < 5; ++i) {
+        for (int colour = 0; colour < 3; ++colour) {
+          ASSERT_EQ(got.levels[4 * i + static_cast<std::size_t>(colour)],
+                    scalar::level_of<Level>(last, 0, colour));
+        }
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct
