@@ -49,8 +49,10 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
                               const std::array<Level, 3>& background, int first_row,
                               cv::Mat& picture) {
   bricks_ = bricks;
-  if (fill_value_.empty() && std::find(bricks.begin(), bricks.end(), nullptr) != bricks.end()) {
-    fill_value_.resize(plan.blocks().brick_bytes() + plan.blocks().slack());
+  const std::size_t brick_bytes = plan.blocks().brick_bytes() + TexelBlocks::slack();
+  if (fill_value_.size() < brick_bytes &&
+      std::find(bricks.begin(), bricks.end(), nullptr) != bricks.end()) {
+    fill_value_.resize(brick_bytes);
   }
   const ColumnRange columns = plan.tile().columns;
   const auto width = static_cast<std::size_t>(columns.last - columns.first);
