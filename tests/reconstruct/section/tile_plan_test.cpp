@@ -78,8 +78,9 @@ const std::vector<VolumeShape> kVolumes{
     {"chunks of one layer", {1, 16, 16}, {60, 50, 40}, {10, 10, 20}},
     {"chunks of one voxel", {1, 1, 1}, {9, 8, 7}, {1, 1, 1}},
     {"needles", {1, 1, 600}, {700, 9, 8}, {1, 2, 3}},
+    {"planks", {12, 600, 1024}, {1100, 1300, 30}, {1, 1, 1}},
     {"sides that are no multiples of 4", {3, 5, 7}, {30, 31, 32}, {1, 1, 1}},
-    {"chunks longer than positions can count", {600, 1024, 600}, {1300, 1100, 1201}, {1, 1, 1}},
+    {"chunks longer than positions can count", {600, 1024, 24}, {100, 1100, 1201}, {1, 1, 1}},
     {"one layer", {1, 8, 8}, {30, 20, 1}, {1, 1, 5}},
 };
 
