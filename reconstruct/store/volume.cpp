@@ -231,19 +231,22 @@ Volume::~Volume() = default;
 Volume::Volume(Volume&&) noexcept = default;
 
 Volume Volume::open(const std::filesystem::path& path) {
-  auto objects = std::make_unique<LocalObjectReader>(path);
-  VolumeMetadata metadata =
-      parse_group_metadata(read_text(*objects, kMetadataName), objects->describe(kMetadataName));
+  return open(std::make_unique<LocalObjectReader>(path));
+}
+
+Volume Volume::open(std::unique_ptr<ObjectReader> objects) {
+  const std::string group = objects->describe(kMetadataName);
+  VolumeMetadata metadata = parse_group_metadata(read_text(*objects, kMetadataName), group);
   const ZarrArray array = read_array(*objects, 0);
   if (array.bits != metadata.bits || metadata.layers_present > array.size.z) {
-    throw SampleError(path.string() + ": its metadata and its array contradict each other");
+    throw SampleError(group + ": contradicts the metadata of its level 0");
   }
   auto state = std::make_unique<State>(std::move(objects), std::move(metadata), array);
   for (std::size_t level = 1; level < state->levels.size(); ++level) {
     ZarrArray expected = array;
     expected.size = state->levels[level].size;
     if (read_array(*state->objects, static_cast<int>(level)) != expected) {
-      throw SampleError(path.string() + ": its level " + std::to_string(level) +
+      throw SampleError(group + ": its level " + std::to_string(level) +
                         " does not fit level 0; build the volume anew");
     }
   }

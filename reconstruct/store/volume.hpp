@@ -11,6 +11,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/cuboid.hpp"
+#include "reconstruct/store/object_reader.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
 
@@ -44,6 +45,7 @@ class Volume {
  public:
   /// Throws SampleError when it is not a volume that can be read.
   static Volume open(const std::filesystem::path& path);
+  static Volume open(std::unique_ptr<ObjectReader> objects);  ///< wherever they are stored
   ~Volume();
   Volume(Volume&&) noexcept;
 
