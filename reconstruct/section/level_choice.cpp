@@ -2,14 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace biotomy::reconstruct {
 namespace {
 
 constexpr double kSameSize = 1e-6;  // relative: a pixel that is meant to be a voxel is one
 
+/// Along an axis of one voxel the pyramid does not go on and colours do not change: it does not
+/// count, except where there is no other.
 double finest_spacing(const PyramidLevel& level) {
-  return std::min({level.spacing.x, level.spacing.y, level.spacing.z});
+  double finest = std::numeric_limits<double>::infinity();
+  for (const auto& [size, spacing] :
+       {std::pair(level.size.x, level.spacing.x), std::pair(level.size.y, level.spacing.y),
+        std::pair(level.size.z, level.spacing.z)}) {
+    if (size > 1) {
+      finest = std::min(finest, spacing);
+    }
+  }
+  return std::isfinite(finest) ? finest
+                               : std::max({level.spacing.x, level.spacing.y, level.spacing.z});
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ inline void find_bricks(const RowPath& path, std::size_t count, RowBricks& brick
 template <bool kShifts, typename Level>
 void place_row_by(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
                   PixelPlaces<Level>& places) {
-  constexpr int kLevelShift = sizeof(Level) == 1 ? 0 : 1;
+  constexpr int kShift = sizeof(Level) == 1 ? 0 : 1;
   const Positions d;
   const auto last = hn::Set(d, static_cast<std::int32_t>(count) - 1);
   const auto block_row_bytes = hn::Set(d, path.block_row_bytes);
@@ -183,13 +183,13 @@ void place_row_by(const RowPath& path, std::size_t count, RowTexels<Level>& texe
     const AxisVectors<kShifts> z(path.axes[2], pixel);
     const auto brick_x = x.brick();
     const auto slot_x = x.slot(brick_x);
-    const auto offset_x = along_x<kLevelShift>(x.texel(brick_x));
+    const auto offset_x = along_x<kShift>(x.texel(brick_x));
     hn::StoreU(hn::Sub(x.next_brick(), brick_x), d, texels.parted.data() + i);
     const auto store = [&](std::size_t pair, PositionVector brick_y, PositionVector texel_y,
                            PositionVector brick_z, PositionVector texel_z) HWY_ATTR {
       hn::StoreU(hn::Add(slot_x, hn::Add(y.slot(brick_y), z.slot(brick_z))), d,
                  texels.slots[pair].data() + i);
-      hn::StoreU(hn::Add(offset_x, hn::Add(along_y<kLevelShift>(texel_y, block_row_bytes),
+      hn::StoreU(hn::Add(offset_x, hn::Add(along_y<kShift>(texel_y, block_row_bytes),
                                            hn::Mul(texel_z, layer_bytes))),
                  d, texels.offsets[pair].data() + i);
     };

@@ -253,7 +253,10 @@ Volume::~Volume() = default;
 Volume::Volume(Volume&&) noexcept = default;
 
 Volume Volume::open(const std::filesystem::path& path) {
-  auto objects = std::make_unique<LocalObjectReader>(path);
+  return open(std::make_unique<LocalObjectReader>(path));
+}
+
+Volume Volume::open(std::unique_ptr<ObjectReader> objects) {
   VolumeMetadata metadata = read_group(*objects);
   const ZarrArray array = read_array(*objects, 0);
   if (array.bits != metadata.bits || metadata.layers_present > array.size.z) {

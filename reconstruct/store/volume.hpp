@@ -12,6 +12,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/cuboid.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/store/object_reader.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
 
@@ -45,6 +46,7 @@ class Volume {
  public:
   /// Throws SampleError when it is not a volume that can be read.
   static Volume open(const std::filesystem::path& path);
+  static Volume open(std::unique_ptr<ObjectReader> objects);  ///< wherever they are stored
 
   /// The sample's volume; one without any layers, of the default layout, when none has been begun.
   static Volume of_sample(const SampleFolder& sample);

@@ -13,53 +13,113 @@
 #include <stdexcept>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "reconstruct/section/block_pool.hpp"
 #include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/store/pyramid.hpp"
+#include "tests/reconstruct/volume_levels.hpp"
 
 namespace biotomy::tests {
 
-/// A volume in memory. Knobs: its shape, its colours, which chunks were never written.
+/// A volume in memory. Knobs, to be turned before its levels are asked for: its shape, its colours,
+/// which chunks were never written, whether it has coarser levels.
 struct MemorySource final : reconstruct::BrickSource {
   reconstruct::Cuboid box{{40, 30, 20}, {10.0, 10.0, 10.0}};
   std::array<int, 3> chunk_size{8, 8, 8};  ///< z, y, x
   int bit_count = 8;
+  bool pyramid = false;  ///< the coarser levels, too, that a store of it would have
   /// The level of colour c at voxel (x, y, z).
   std::function<int(int x, int y, int z, int c)> voxel = [](int, int, int, int) { return 0; };
   std::set<reconstruct::ChunkIndex> never_written;
   bool broken = false;
-
-  std::multiset<reconstruct::ChunkIndex> asked;  ///< every chunk that was fetched
-  std::mutex mutex;
-  mutable reconstruct::PyramidLevel only_level;
-
   std::size_t capacity = std::size_t{1} << 30;
+
+  std::multiset<reconstruct::ChunkIndex> asked;  ///< every chunk that was fetched, of any level
 
   const reconstruct::Cuboid& cuboid() const override { return box; }
   std::array<int, 3> brick_shape() const override { return chunk_size; }
   int bits() const override { return bit_count; }
-  int levels() const override { return 1; }
-  const reconstruct::PyramidLevel& level(int /*number*/) const override {
-    only_level = reconstruct::pyramid_level(box, {});
-    return only_level;
+  int levels() const override { return static_cast<int>(all_levels().size()); }
+  const reconstruct::PyramidLevel& level(int number) const override {
+    return all_levels().at(static_cast<std::size_t>(number));
   }
   std::size_t capacity_bytes() const override { return capacity; }
   void expect(int /*level*/, std::span<const reconstruct::ChunkIndex> /*soon*/) override {}
 
   std::vector<reconstruct::TexelBrick> bricks(
-      int /*level*/, std::span<const reconstruct::ChunkIndex> wanted) override {
+      int level, std::span<const reconstruct::ChunkIndex> wanted) override {
     std::vector<reconstruct::TexelBrick> result;
     for (const reconstruct::ChunkIndex& index : wanted) {
-      result.push_back(brick(index));
+      result.push_back(brick(level, index));
     }
     return result;
   }
 
   int most() const { return bit_count == 8 ? 255 : 65535; }
 
+  /// The level of colour c at a voxel of a level; those of coarser levels are means of the level
+  /// before, as the store defines them.
+  int voxel_of(int level, int x, int y, int z, int c) {
+    return level == 0 ? voxel(x, y, z, c) : value(layers_of(level), x, y, z, c);
+  }
+
  private:
-  reconstruct::TexelBrick brick(const reconstruct::ChunkIndex& index) {
-    const std::scoped_lock lock(mutex);
+  using Layers = std::vector<cv::Mat>;
+
+  // Once; the sampler asks from many threads.
+  const std::vector<reconstruct::PyramidLevel>& all_levels() const {
+    const std::scoped_lock lock(levels_mutex_);
+    if (levels_.empty()) {
+      const std::vector<reconstruct::LevelFactor> factors =
+          pyramid ? reconstruct::pyramid_factors(box, chunk_size)
+                  : std::vector<reconstruct::LevelFactor>{{}};
+      for (const reconstruct::LevelFactor& factor : factors) {
+        levels_.push_back(reconstruct::pyramid_level(box, factor));
+      }
+    }
+    return levels_;
+  }
+
+  const Layers& layers_of(int number) {
+    if (means_.empty()) {
+      means_.push_back(finest_layers());
+    }
+    while (static_cast<int>(means_.size()) <= number) {
+      const auto next = static_cast<int>(means_.size());
+      means_.push_back(reconstruct::slow_next_level(means_.back(), level(next - 1), level(next)));
+    }
+    return means_[static_cast<std::size_t>(number)];
+  }
+
+  Layers finest_layers() const {
+    Layers layers;
+    for (int z = 0; z < box.size.z; ++z) {
+      layers.emplace_back(static_cast<int>(box.size.y), static_cast<int>(box.size.x),
+                          bit_count == 8 ? CV_8UC3 : CV_16UC3);
+      for (int y = 0; y < box.size.y; ++y) {
+        for (int x = 0; x < box.size.x; ++x) {
+          for (int c = 0; c < 3; ++c) {
+            if (bit_count == 8) {
+              layers.back().at<cv::Vec3b>(y, x)[c] = static_cast<std::uint8_t>(voxel(x, y, z, c));
+            } else {
+              layers.back().at<cv::Vec3w>(y, x)[c] = static_cast<std::uint16_t>(voxel(x, y, z, c));
+            }
+          }
+        }
+      }
+    }
+    return layers;
+  }
+
+  int value(const Layers& layers, int x, int y, int z, int c) const {
+    const cv::Mat& layer = layers[static_cast<std::size_t>(z)];
+    return bit_count == 8 ? layer.at<cv::Vec3b>(y, x)[c] : layer.at<cv::Vec3w>(y, x)[c];
+  }
+
+  reconstruct::TexelBrick brick(int number, const reconstruct::ChunkIndex& index) {
+    const std::scoped_lock lock(mutex_);
     asked.insert(index);
     if (broken) {
       throw std::runtime_error("the chunk is damaged");
@@ -71,7 +131,7 @@ struct MemorySource final : reconstruct::BrickSource {
     for (int z = 0; z < chunk_size[0]; ++z) {
       for (int y = 0; y < chunk_size[1]; ++y) {
         for (int x = 0; x < chunk_size[2]; ++x) {
-          append_voxel(voxels, index.x * chunk_size[2] + x, index.y * chunk_size[1] + y,
+          append_voxel(voxels, number, index.x * chunk_size[2] + x, index.y * chunk_size[1] + y,
                        index.z * chunk_size[0] + z);
         }
       }
@@ -84,16 +144,22 @@ struct MemorySource final : reconstruct::BrickSource {
   }
 
   // Beyond the volume chunks hold what must never be seen.
-  void append_voxel(reconstruct::ChunkVoxels& voxels, int x, int y, int z) const {
-    const bool inside = x < box.size.x && y < box.size.y && z < box.size.z;
+  void append_voxel(reconstruct::ChunkVoxels& voxels, int number, int x, int y, int z) {
+    const reconstruct::GridSize& size = level(number).size;
+    const bool inside = x < size.x && y < size.y && z < size.z;
     for (int c = 0; c < 3; ++c) {
-      const auto value = static_cast<unsigned>(inside ? voxel(x, y, z, c) : most());
-      voxels.push_back(static_cast<std::byte>(value & 255U));
+      const auto level = static_cast<unsigned>(inside ? voxel_of(number, x, y, z, c) : most());
+      voxels.push_back(static_cast<std::byte>(level & 255U));
       if (bit_count == 16) {
-        voxels.push_back(static_cast<std::byte>(value >> 8U));
+        voxels.push_back(static_cast<std::byte>(level >> 8U));
       }
     }
   }
+
+  std::mutex mutex_;
+  mutable std::mutex levels_mutex_;
+  mutable std::vector<reconstruct::PyramidLevel> levels_;
+  std::vector<Layers> means_;
 };
 
 /// Noise that is the same on every run: neighbours have nothing in common, so that any voxel taken

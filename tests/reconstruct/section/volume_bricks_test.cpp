@@ -1,206 +1,227 @@
 #include "reconstruct/section/volume_bricks.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
-#include <filesystem>
-#include <string>
+#include <cstring>
+#include <memory>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
-#include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_files.hpp"
-#include "tests/reconstruct/test_images.hpp"
+#include "tests/reconstruct/watched_reader.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
 
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
 using tests::TemporaryFolder;
 
 constexpr int kLayers = 12;
-const cv::Size kLayerSize{50, 40};
+constexpr int kStoredLayers = 8;  // the rest was never written
+const cv::Size kLayerSize{64, 40};
+constexpr std::size_t kIndexBytes = 8 * 16 + 4;  // of a shard of 8 chunks
 
-cv::Mat layer_image(int layer) {
-  cv::Mat image(kLayerSize, CV_8UC3);
+cv::Mat layer_image(int layer, int bits) {
+  cv::Mat image(kLayerSize, bits == 8 ? CV_8UC3 : CV_16UC3);
   cv::RNG random(static_cast<std::uint64_t>(layer));
-  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  random.fill(image, cv::RNG::UNIFORM, 0, bits == 8 ? 256 : 65536);
   return image;
 }
 
-VolumeLayout small_layout() {
-  VolumeLayout layout;
-  layout.chunk = {8, 16, 16};
-  layout.shard = {8, 32, 32};
-  return layout;
-}
+/// A sample of noise.
+struct Written {
+  TemporaryFolder folder;
+  SampleFolder sample;
 
-SampleFolder noise_sample(const TemporaryFolder& folder) {
-  SampleDescription description;
-  description.name = "noise";
-  description.cuboid = {{kLayerSize.width, kLayerSize.height, kLayers}, {10.0, 10.0, 25.0}};
-  description.created = "2026-01-01T00:00:00Z";
-  const SampleFolder sample = SampleFolder::create(folder.path() / "noise", description);
-  for (int layer = 1; layer <= kLayers; ++layer) {
-    write_layer_image(sample.layer_path(layer), layer_image(layer),
-                      {layer, description.cuboid.spacing}, {});
+  explicit Written(int bits) : sample(SampleFolder::create(folder / "noise", description(bits))) {
+    for (int layer = 1; layer <= kLayers; ++layer) {
+      write_layer_image(sample.layer_path(layer), layer_image(layer, bits),
+                        {layer, description(bits).cuboid.spacing}, {});
+    }
+    VolumeLayout layout;
+    layout.chunk = {8, 16, 16};
+    layout.shard = {8, 32, 64};
+    VolumeWriter(sample, layout).append(kStoredLayers, false);
   }
-  VolumeWriter(sample, small_layout()).append(kLayers, true);
-  return sample;
-}
 
-TEST(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
-  const TemporaryFolder folder;
-  const SampleFolder sample = noise_sample(folder);
-  const Volume volume = Volume::open(sample.volume_path());
+  static SampleDescription description(int bits) {
+    SampleDescription result;
+    result.name = "noise";
+    result.bits = bits;
+    result.cuboid = {{kLayerSize.width, kLayerSize.height, kLayers}, {10.0, 10.0, 25.0}};
+    result.created = "2026-01-01T00:00:00Z";
+    return result;
+  }
+};
+
+/// Written once for each number of bits, copied for each test.
+class VolumeAsBricks : public testing::TestWithParam<int> {
+ protected:
+  static void SetUpTestSuite() {
+    written_[0] = std::make_unique<Written>(8);
+    written_[1] = std::make_unique<Written>(16);
+  }
+  static void TearDownTestSuite() { written_ = {}; }
+
+  VolumeAsBricks() {
+    std::filesystem::copy(written_[bits() == 8 ? 0 : 1]->sample.volume_path(), path_,
+                          std::filesystem::copy_options::recursive);
+  }
+
+  static int bits() { return GetParam(); }
+  Volume open() const { return Volume::open(path_); }
+
+  /// Changes a byte of the chunk at this place among those of the first shard, which lie side by
+  /// side.
+  void damage(std::size_t place) const {
+    const Volume volume = open();
+    volume.read_chunks(0, std::span(run_).first(place), [](std::size_t, auto) {});
+    const auto before = static_cast<std::size_t>(volume.statistics().bytes_read);
+    flip_byte(shard_, (place == 0 ? 0 : before - kIndexBytes) + 40);
+  }
+
+  /// The first texel, as it would be painted.
+  std::array<int, 3> first_texel(const TexelBrick& brick) const {
+    std::array<int, 3> levels{};
+    for (std::size_t colour = 0; colour < 3; ++colour) {
+      if (bits() == 8) {
+        levels[colour] = std::to_integer<int>(brick.get()[colour]);
+      } else {
+        std::uint16_t level = 0;
+        std::memcpy(&level, brick.get() + 2 * colour, sizeof level);
+        levels[colour] = level;
+      }
+    }
+    return levels;
+  }
+
+  static inline std::array<std::unique_ptr<Written>, 2> written_;
+
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_ / "volume";
+  std::filesystem::path shard_ = path_ / "0" / "c" / "0" / "0" / "0" / "0";
+  const std::vector<ChunkIndex> run_{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}, {0, 1, 0}};
+};
+
+INSTANTIATE_TEST_SUITE_P(EightAndSixteenBits, VolumeAsBricks, testing::Values(8, 16),
+                         testing::PrintToStringParamName());
+
+TEST_P(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
+  const Volume volume = open();
   VolumeBricks source(volume, 1'000'000);
-  EXPECT_EQ(source.brick_shape(), small_layout().chunk);
-  EXPECT_EQ(source.bits(), 8);
+  EXPECT_EQ(source.brick_shape(), volume.layout().chunk);
+  EXPECT_EQ(source.bits(), bits());
+  EXPECT_EQ(source.levels(), volume.levels());
   for (int layer = 1; layer <= kLayers; ++layer) {
     const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, (layer - 1) * 25.0});
     const Section section =
         cut_section(source, {plane, section_basis(BasisKind::layer, plane), {}});
     EXPECT_EQ(section.image.size(), kLayerSize);
-    EXPECT_EQ(cv::norm(section.image, layer_image(layer), cv::NORM_INF), 0.0) << layer;
+    const cv::Mat wanted = layer <= kStoredLayers
+                               ? layer_image(layer, bits())
+                               : cv::Mat(kLayerSize, section.image.type(), cv::Scalar::all(0));
+    EXPECT_EQ(cv::norm(section.image, wanted, cv::NORM_INF), 0.0) << layer;
     EXPECT_EQ(section.statistics.chunks_touched, 12);
   }
-  EXPECT_EQ(volume.statistics().chunks_read, 24);
+  EXPECT_EQ(volume.statistics().chunks_read, 12);
 }
 
-/// A sample whose volume ends before its layers do, beside the same one with a whole volume.
-class VolumeWithATail : public testing::TestWithParam<int> {
- protected:
-  static constexpr GridSize kSize{60, 44, 24};
-  static constexpr std::int64_t kInVolume = 8;
-  static constexpr std::int64_t kOnDisk = 15;
-  static constexpr std::size_t kCacheBytes = 1'000'000;
-
-  VolumeWithATail() {
-    VolumeLayout layout;
-    layout.chunk = {4, 16, 16};
-    layout.shard = {8, 32, 32};
-    VolumeWriter(finished_, layout).append(kOnDisk, true);
-    VolumeWriter(sample_, layout).append(kOnDisk, false);
-  }
-
-  static SectionRequest request(const Vector3& normal, const Vector3& point, Interpolation kind,
-                                double pixel) {
-    const Plane plane = Plane::from_normal(normal, point);
-    SectionRequest asked{plane, section_basis(BasisKind::layer, plane), {}};
-    asked.style.interpolation = kind;
-    asked.style.pixel = pixel;
-    return asked;
-  }
-
-  tests::TemporaryFolder folder_;
-  SampleFolder sample_ = sample_with_layers(folder_ / "live", kSize, GetParam(), kOnDisk);
-  SampleFolder finished_ = sample_with_layers(folder_ / "finished", kSize, GetParam(), kOnDisk);
-};
-
-TEST_P(VolumeWithATail, GivesTheSectionsOfTheVolumeThatHoldsTheSameLayers) {
-  const Volume volume = Volume::of_sample(sample_);
-  const Volume whole = Volume::of_sample(finished_);
-  ASSERT_EQ(volume.layers_present(), kInVolume);
-  const LayerTail tail(sample_, volume);
-  VolumeBricks live(volume, kCacheBytes, {}, &tail);
-  VolumeBricks expected(whole, kCacheBytes);
-  const Vector3 spacing = volume.cuboid().spacing;
-  const Vector3 point{30 * spacing.x, 20 * spacing.y, 11 * spacing.z};
-  int levels_read = 0;
-  for (const Vector3& normal : {Vector3{0, 0, 1}, Vector3{0, 1, 0}, Vector3{1, 0, 0},
-                                Vector3{1, 2, 3}, Vector3{3, -1, 0}}) {
-    for (const Interpolation kind :
-         {Interpolation::nearest, Interpolation::linear, Interpolation::cubic}) {
-      for (const double pixel : {7.0, 10.0, 33.0}) {
-        const SectionRequest asked = request(normal, point, kind, pixel);
-        std::array<std::int64_t, 2> rows{};
-        const Section section =
-            cut_section(live, asked, [&](std::int64_t done, std::int64_t total) {
-              rows = {done, total};
-            });
-        const std::int64_t all = std::int64_t{section.image.rows} * section.statistics.levels;
-        EXPECT_EQ(rows, (std::array<std::int64_t, 2>{all, all}));
-        EXPECT_TRUE(same_pixels(section.image, cut_section(expected, asked).image))
-            << normal.x << normal.y << normal.z << " " << pixel;
-        levels_read =
-            std::max(levels_read, section.statistics.finest_level + section.statistics.levels);
-      }
-    }
-  }
-  EXPECT_GT(levels_read, 2);
+TEST_P(VolumeAsBricks, KeepsWhatFitsAndReadsTheRestAgain) {
+  const Volume volume = open();
+  const std::size_t brick_bytes = TexelBlocks(volume.layout().chunk, bits()).brick_bytes();
+  VolumeBricks source(volume, 2 * brick_bytes);
+  EXPECT_EQ(source.capacity_bytes(), 2 * brick_bytes);
+  const auto chunks_read_by = [&](const std::vector<ChunkIndex>& wanted) {
+    const std::int64_t before = volume.statistics().chunks_read;
+    source.bricks(0, wanted);
+    return volume.statistics().chunks_read - before;
+  };
+  EXPECT_EQ(chunks_read_by({run_[0], run_[1]}), 2);
+  EXPECT_EQ(chunks_read_by({run_[0], run_[1]}), 0);
+  EXPECT_EQ(chunks_read_by({run_[2]}), 1);
+  EXPECT_EQ(chunks_read_by({run_[1]}), 0);
+  EXPECT_EQ(chunks_read_by({run_[0]}), 1);
 }
 
-TEST_P(VolumeWithATail, ReachesTheNewestFace) {
-  const Volume volume = Volume::of_sample(sample_);
-  const LayerTail tail(sample_, volume);
-  VolumeBricks source(volume, kCacheBytes, {}, &tail);
-  const Vector3 newest{0, 0, static_cast<double>(kOnDisk - 1) * volume.cuboid().spacing.z};
-  const SectionRequest asked = request({0, 0, 1}, newest, Interpolation::linear, 10.0);
-  const cv::Mat face = read_layer_image(sample_.layer_path(kOnDisk));
-  // Voxels are 11 µm high: rows fall on pixels where the picture begins, and eleven pixels on.
-  const cv::Mat image = cut_section(source, asked).image;
-  EXPECT_TRUE(same_pixels(image.row(0), face.row(0)));
-  EXPECT_TRUE(same_pixels(image.row(11), face.row(10)));
+TEST_P(VolumeAsBricks, OfFillValueAreNull) {
+  const Volume volume = open();
+  VolumeBricks source(volume, 1'000'000);
+  const std::vector<ChunkIndex> wanted{{1, 0, 0}, {0, 0, 0}};
+  const std::vector<TexelBrick> bricks = source.bricks(0, wanted);
+  EXPECT_EQ(bricks[0], nullptr);
+  EXPECT_NE(bricks[1], nullptr);
 }
 
-TEST_P(VolumeWithATail, KeepsWhatItMadeOfTheTail) {
-  const Volume volume = Volume::of_sample(sample_);
-  const LayerTail tail(sample_, volume);
-  VolumeBricks source(volume, kCacheBytes, {}, &tail);
-  const SectionRequest asked = request({0, 0, 1}, {0, 0, 500}, Interpolation::linear, 10.0);
-  const cv::Mat first = cut_section(source, asked).image;
-  for (std::int64_t layer = kInVolume + 1; layer <= kOnDisk; ++layer) {
-    std::filesystem::remove(sample_.layer_path(layer));
+TEST_P(VolumeAsBricks, ExpectsOnlyWhatItDoesNotHave) {
+  const auto record = std::make_shared<WatchedReader::Record>();
+  const Volume volume = Volume::open(std::make_unique<WatchedReader>(path_, record, 64));
+  VolumeBricks source(volume, 10'000'000);
+  source.bricks(0, run_);
+  source.expect(0, run_);
+  EXPECT_TRUE(record->expected.empty());
+  const std::vector<ChunkIndex> two{run_[0], {0, 2, 0}};
+  source.expect(0, two);
+  EXPECT_EQ(record->expected.size(), 1U);
+}
+
+TEST_P(VolumeAsBricks, ThrowsWhatIsDamagedAndNamesTheShard) {
+  damage(2);
+  const Volume volume = open();
+  VolumeBricks source(volume, 10'000'000);
+  EXPECT_THAT(message_of<SampleError>([&] { source.bricks(0, run_); }),
+              AllOf(StartsWith(shard_.string()), HasSubstr("chunk z 0, y 0, x 2 is damaged")));
+  EXPECT_EQ(source.damage().chunks, 0);
+  EXPECT_NE(source.bricks(0, std::vector<ChunkIndex>{run_[0]})[0], nullptr);
+}
+
+TEST_P(VolumeAsBricks, ToleratesADamagedChunkInTheMiddleOfOthers) {
+  std::vector<TexelBrick> whole;
+  {
+    const Volume volume = open();
+    whole = VolumeBricks(volume, 10'000'000).bricks(0, run_);
   }
-  EXPECT_TRUE(same_pixels(cut_section(source, asked).image, first));  // from the cache
-}
-
-TEST_P(VolumeWithATail, PaintsWhatADamagedLayerTakesAlongWhenThatIsTolerated) {
-  const Volume volume = Volume::of_sample(sample_);
-  const LayerTail tail(sample_, volume);
-  truncate_file(sample_.layer_path(kInVolume + 1), 0.3);
-  const SectionRequest asked = request({0, 0, 1}, {0, 0, 8 * 50.0}, Interpolation::nearest, 10.0);
-  VolumeBricks strict(volume, kCacheBytes, {}, &tail);
-  EXPECT_THROW(cut_section(strict, asked), SampleError);
-
-  VolumeBricks tolerant(volume, kCacheBytes, {true, {1, 2, 3}}, &tail);
-  const cv::Mat image = cut_section(tolerant, asked).image;
-  const double scale = GetParam() == 8 ? 1.0 : 257.0;
-  EXPECT_TRUE(same_pixels(image, cv::Mat(image.size(), image.type(), scale * cv::Scalar(1, 2, 3))));
-  EXPECT_EQ(tolerant.damage().chunks, 12);  // of 60 × 44 voxels
-  EXPECT_NE(tolerant.damage().first.find("000009.tif"), std::string::npos);
-}
-
-INSTANTIATE_TEST_SUITE_P(, VolumeWithATail, testing::Values(8, 16),
-                         [](const auto& bits) { return std::to_string(bits.param) + "Bits"; });
-
-TEST(VolumeAsBricks, GivesAColourForWhatIsDamagedWhenItIsToleratedAndCountsEachChunkOnce) {
-  const TemporaryFolder folder;
-  const SampleFolder sample = noise_sample(folder);
-  const auto shard = sample.volume_path() / "0" / "c" / "0" / "0" / "0" / "1";  // x from 32
-  ASSERT_TRUE(std::filesystem::remove(shard));
-  const Volume volume = Volume::open(sample.volume_path());
-  const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 25.0});
-  const SectionRequest request{plane, section_basis(BasisKind::layer, plane), {}};
-
-  VolumeBricks strict(volume, 1'000'000);
-  EXPECT_EQ(message_of<SampleError>([&] { cut_section(strict, request); }).find(shard.string()),
-            0U);
-
-  VolumeBricks tolerant(volume, 0, {true, {1, 2, 3}});  // no cache: asked for at each section
-  EXPECT_EQ(tolerant.damage().chunks, 0);
-  cv::Mat expected = layer_image(2);
-  expected(cv::Rect(32, 0, kLayerSize.width - 32, 32)).setTo(cv::Scalar(1, 2, 3));
-  for (int time = 0; time < 2; ++time) {
-    EXPECT_EQ(cv::norm(cut_section(tolerant, request).image, expected, cv::NORM_INF), 0.0);
+  damage(2);
+  const Volume volume = open();
+  VolumeBricks source(volume, 10'000'000, {true, {10, 20, 30}});
+  const std::vector<TexelBrick> bricks = source.bricks(0, run_);
+  for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+    EXPECT_EQ(first_texel(bricks[i]), first_texel(whole[i]));
   }
-  EXPECT_EQ(tolerant.damage().chunks, 4);
-  EXPECT_EQ(tolerant.damage().first.find(shard.string() + ": is missing"), 0U);
+  const int scale = bits() == 8 ? 1 : 257;
+  EXPECT_EQ(first_texel(bricks[2]), (std::array{10 * scale, 20 * scale, 30 * scale}));
+  EXPECT_EQ(source.damage().chunks, 1);
+  EXPECT_THAT(source.damage().first,
+              AllOf(StartsWith(shard_.string()), HasSubstr("chunk z 0, y 0, x 2 is damaged")));
+}
+
+TEST_P(VolumeAsBricks, PaintsAllOfADamagedChunk) {
+  damage(0);
+  const Volume volume = open();
+  VolumeBricks source(volume, 10'000'000, {true, {10, 20, 30}});
+  const int scale = bits() == 8 ? 1 : 257;
+  const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 0});
+  const cv::Mat image =
+      cut_section(source, {plane, section_basis(BasisKind::layer, plane), {}}).image;
+  cv::Mat wanted = layer_image(1, bits());
+  wanted(cv::Rect(0, 0, 16, 16)) = cv::Scalar(10 * scale, 20 * scale, 30 * scale);
+  EXPECT_EQ(cv::norm(image, wanted, cv::NORM_INF), 0.0);
+}
+
+TEST_P(VolumeAsBricks, CountsEachDamagedChunkOnceAndTellsOneOfThem) {
+  truncate_file(shard_, 0.0);
+  const Volume volume = open();
+  VolumeBricks source(volume, 10'000'000, {true, {}});
+  source.bricks(0, run_);
+  source.bricks(0, run_);  // they are kept, like any others
+  EXPECT_EQ(source.damage().chunks, static_cast<std::int64_t>(run_.size()));
+  EXPECT_THAT(source.damage().first, HasSubstr("shorter than its index"));
 }
 
 }  // namespace

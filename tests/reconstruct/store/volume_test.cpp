@@ -2,6 +2,10 @@
 
 #include <array>
 #include <fstream>
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <random>
 
 #include <gmock/gmock.h>
 
@@ -12,12 +16,14 @@
 #include "reconstruct/store/zarr_array.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
+#include "tests/reconstruct/watched_reader.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 using tests::TemporaryFolder;
@@ -222,6 +228,244 @@ TEST_F(VolumeOnDisk, NamesTheArrayOfAnyLevelThatIsMissingOrDoesNotFit) {
     write_file(array, whole);
   }
   EXPECT_NO_THROW(open());
+}
+
+/// Many chunks as read_chunks gave them. What came twice, or not, shows.
+struct ReadChunks {
+  std::vector<int> times;
+  std::vector<ChunkVoxels> voxels;
+  std::vector<std::string> damage;
+
+  ReadChunks(const Volume& volume, int level, const std::vector<ChunkIndex>& wanted)
+      : times(wanted.size()), voxels(wanted.size()), damage(wanted.size()) {
+    std::mutex mutex;
+    volume.read_chunks(
+        level, wanted,
+        [&](std::size_t which, std::span<const std::byte> chunk) {
+          const std::lock_guard lock(mutex);
+          ++times.at(which);
+          voxels.at(which).assign(chunk.begin(), chunk.end());
+        },
+        [&](std::size_t which, const SampleError& error) {
+          const std::lock_guard lock(mutex);
+          ++times.at(which);
+          damage.at(which) = error.what();
+        });
+  }
+};
+
+/// A volume of several bands, shards and levels, whose deepest layers are not there yet. It is
+/// written once, and copied for each test.
+class ManyChunks : public testing::Test {
+ protected:
+  static constexpr std::size_t kIndexBytes = 2 * 3 * 16 + 4;  // of a shard
+
+  static void SetUpTestSuite() {
+    written_ = std::make_unique<Written>();
+    VolumeLayout layout;
+    layout.chunk = {4, 8, 8};
+    layout.shard = {4, 16, 24};
+    VolumeWriter(written_->sample, layout).append(8, false);
+  }
+  static void TearDownTestSuite() { written_.reset(); }
+
+  ManyChunks() {
+    std::filesystem::copy(written_->sample.volume_path(), path_,
+                          std::filesystem::copy_options::recursive);
+  }
+
+  Volume open() const { return Volume::open(path_); }
+  Volume open_watched(std::size_t most_open = 64) const {
+    Volume volume = Volume::open(std::make_unique<WatchedReader>(path_, record_, most_open));
+    record_->reads = 0;
+    return volume;
+  }
+
+  static std::vector<ChunkIndex> all_chunks(const Volume& volume, int level) {
+    std::vector<ChunkIndex> indices;
+    const auto& chunk = volume.layout().chunk;
+    const GridSize size = volume.level(level).size;
+    for (std::int32_t z = 0; z * chunk[0] < size.z; ++z) {
+      for (std::int32_t y = 0; y * chunk[1] < size.y; ++y) {
+        for (std::int32_t x = 0; x * chunk[2] < size.x; ++x) {
+          indices.push_back({z, y, x});
+        }
+      }
+    }
+    return indices;
+  }
+
+  struct Written {
+    TemporaryFolder folder;
+    SampleFolder sample = sample_with_layers(folder.path() / "s", {60, 24, 12}, 8, 8);
+  };
+  static inline std::unique_ptr<Written> written_;
+
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "volume";
+  std::filesystem::path shard_ = path_ / "0" / "c" / "0" / "0" / "0" / "0";
+  std::shared_ptr<WatchedReader::Record> record_ = std::make_shared<WatchedReader::Record>();
+};
+
+TEST_F(ManyChunks, AreWhatTheyAreOneByOneOnEveryLevel) {
+  const Volume volume = open();
+  ASSERT_GT(volume.levels(), 2);
+  std::mt19937 random(1);
+  std::size_t not_written = 0;
+  for (int level = 0; level < volume.levels(); ++level) {
+    std::vector<ChunkIndex> indices = all_chunks(volume, level);
+    for (int round = 0; round < 10; ++round) {
+      std::shuffle(indices.begin(), indices.end(), random);
+      const std::vector<ChunkIndex> wanted(
+          indices.begin(),
+          indices.begin() + static_cast<std::ptrdiff_t>(1 + random() % indices.size()));
+      const ReadChunks read(volume, level, wanted);
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        ASSERT_EQ(read.times[i], 1);
+        ASSERT_EQ(read.damage[i], "");
+        const auto alone = volume.read_chunk(level, wanted[i]);
+        not_written += alone ? 0U : 1U;
+        ASSERT_EQ(read.voxels[i], alone ? *alone : ChunkVoxels()) << level;
+      }
+    }
+  }
+  EXPECT_GT(not_written, 0U);
+}
+
+TEST_F(ManyChunks, OfNoNumberAreNone) {
+  EXPECT_TRUE(ReadChunks(open(), 0, {}).times.empty());
+}
+
+TEST_F(ManyChunks, ThatLieSideBySideAreReadAtOnce) {
+  const Volume volume = open_watched();
+  std::vector<ChunkIndex> wanted;
+  for (const ChunkIndex& index : all_chunks(volume, 0)) {
+    if (index.z < 2) {  // the layers that there are
+      wanted.push_back(index);
+    }
+  }
+  ReadChunks(volume, 0, wanted);
+  std::uintmax_t stored = 0;
+  int shards = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path_ / "0" / "c")) {
+    stored += entry.is_regular_file() ? entry.file_size() : 0;
+    shards += entry.is_regular_file() ? 1 : 0;
+  }
+  // The whole of every shard, its index first and its chunks in one go: no byte twice.
+  EXPECT_EQ(static_cast<std::uintmax_t>(volume.statistics().bytes_read), stored);
+  EXPECT_EQ(record_->reads, 2 * shards);
+  EXPECT_EQ(static_cast<std::size_t>(volume.statistics().chunks_read), wanted.size());
+}
+
+TEST_F(ManyChunks, ThatDoNotLieSideBySideCostNoByteBetweenThem) {
+  const auto bytes_of = [&](const std::vector<ChunkIndex>& wanted) {
+    const Volume volume = open();
+    ReadChunks(volume, 0, wanted);
+    return volume.statistics().bytes_read.load();
+  };
+  const auto index = static_cast<std::int64_t>(kIndexBytes);
+  EXPECT_EQ(bytes_of({{0, 0, 2}, {0, 0, 0}}) - index,
+            bytes_of({{0, 0, 0}}) - index + bytes_of({{0, 0, 2}}) - index);
+  EXPECT_GT(bytes_of({{0, 0, 0}}), index);
+}
+
+TEST_F(ManyChunks, ThatAreExpectedAreReadAheadInTheSameRunsAndNotCounted) {
+  const Volume volume = open_watched();
+  const std::vector<ChunkIndex> wanted{{0, 0, 2}, {0, 0, 0}, {0, 0, 1}, {2, 0, 0}};
+  volume.expect_chunks(0, wanted);
+  EXPECT_EQ(record_->reads, 1);  // the shard's index
+  EXPECT_EQ(volume.statistics().bytes_read, static_cast<std::int64_t>(kIndexBytes));
+  ASSERT_EQ(record_->expected.size(), 1U);
+  ReadChunks(volume, 0, wanted);
+  EXPECT_EQ(record_->reads, 2);
+  EXPECT_EQ(volume.statistics().bytes_read,
+            static_cast<std::int64_t>(kIndexBytes + record_->expected.front().second));
+}
+
+TEST_F(ManyChunks, ThatAreExpectedInADamagedShardAreLeftToTheReading) {
+  truncate_file(shard_, 0.0);
+  const Volume volume = open();
+  const std::vector<ChunkIndex> wanted{{0, 0, 0}};
+  EXPECT_NO_THROW(volume.expect_chunks(0, wanted));
+  EXPECT_THAT(ReadChunks(volume, 0, wanted).damage, ElementsAre(StartsWith(shard_.string())));
+}
+
+TEST_F(ManyChunks, AroundADamagedOneInARunAllArrive) {
+  const std::vector<ChunkIndex> run{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 1, 0}, {0, 1, 1}};
+  const ReadChunks whole(open(), 0, run);
+  {
+    const Volume volume = open();
+    ReadChunks(volume, 0, {run[0], run[1]});
+    const auto two = static_cast<std::size_t>(volume.statistics().bytes_read) - kIndexBytes;
+    flip_byte(shard_, two + 40);  // in the third
+  }
+  const Volume volume = open_watched();
+  const ReadChunks read(volume, 0, run);
+  EXPECT_EQ(record_->reads, 2);
+  EXPECT_THAT(read.times, ElementsAre(1, 1, 1, 1, 1));
+  for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+    EXPECT_EQ(read.voxels[i], whole.voxels[i]);
+    EXPECT_EQ(read.damage[i], "");
+  }
+  EXPECT_THAT(read.damage[2],
+              AllOf(StartsWith(shard_.string()), HasSubstr("chunk z 0, y 0, x 2 is damaged")));
+}
+
+TEST_F(ManyChunks, OfADamagedIndexAreDamagedEachAndTheOthersArrive) {
+  flip_byte(shard_, std::filesystem::file_size(shard_) - 10);
+  const ReadChunks read(open(), 0, {{0, 0, 0}, {0, 0, 3}, {0, 1, 2}});
+  EXPECT_THAT(read.times, ElementsAre(1, 1, 1));
+  EXPECT_THAT(read.damage, ElementsAre(HasSubstr("checksum of its index"), "",
+                                       HasSubstr("checksum of its index")));
+  EXPECT_FALSE(read.voxels[1].empty());
+}
+
+TEST_F(ManyChunks, ThrowWhatIsDamagedWhenNobodyTakesIt) {
+  flip_byte(shard_, 40);
+  const std::vector<ChunkIndex> wanted{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+  EXPECT_THAT(message_of<SampleError>([&] {
+                open().read_chunks(0, wanted, [](std::size_t, std::span<const std::byte>) {});
+              }),
+              AllOf(StartsWith(shard_.string()), HasSubstr("chunk z 0, y 0, x 0 is damaged")));
+}
+
+TEST_F(ManyChunks, OfAShardThatIsReplacedAfterItsIndexWasReadAreWhollyOldOrNew) {
+  const std::vector<ChunkIndex> wanted{{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 3}};
+  const ReadChunks before(open(), 0, wanted);
+  // Another writer's shard, of layers that compress to other lengths, takes the place of the first
+  // once the indices of both were read.
+  const SampleFolder sample = sample_with_layers(folder_.path() / "other", {60, 24, 12}, 8, 0);
+  for (std::int64_t layer = 1; layer <= 8; ++layer) {
+    write_layer_image(sample.layer_path(layer),
+                      layer <= 4 ? cv::Mat(24, 60, CV_8UC3, cv::Scalar(1, 2, 3))
+                                 : test_image(60, 24, CV_8UC3, static_cast<std::uint64_t>(layer)),
+                      {layer, {1, 1, 1}}, {});
+  }
+  VolumeWriter(sample, open().layout()).append(8, false);
+  const auto other = sample.volume_path();
+  const ReadChunks after(Volume::open(other), 0, wanted);
+  ASSERT_NE(before.voxels, after.voxels);
+
+  // With room for one open file the first shard has been closed when its chunks' turn comes.
+  for (const std::size_t most_open : {64U, 1U}) {
+    const Volume volume = open_watched(most_open);
+    std::once_flag replaced;
+    record_->before_read = [&] {
+      if (record_->reads >= 2) {
+        std::call_once(replaced, [&] {
+          std::filesystem::copy_file(other / "0" / "c" / "0" / "0" / "0" / "0",
+                                     folder_.path() / "shard");
+          std::filesystem::rename(folder_.path() / "shard", shard_);
+        });
+      }
+    };
+    const ReadChunks read(volume, 0, wanted);
+    EXPECT_THAT(read.times, ElementsAre(1, 1, 1, 1));
+    EXPECT_THAT(read.damage, ElementsAre("", "", "", ""));
+    EXPECT_EQ(read.voxels, most_open == 1 ? after.voxels : before.voxels);
+    std::filesystem::copy_file(written_->sample.volume_path() / "0" / "c" / "0" / "0" / "0" / "0",
+                               shard_, std::filesystem::copy_options::overwrite_existing);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,388 @@
+#include "reconstruct/section/texel_kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/section/texel_kernels_scalar.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+template <typename Level>
+class TexelKernels : public testing::Test {};
+
+using BothDepths = testing::Types<std::uint8_t, std::uint16_t>;
+TYPED_TEST_SUITE(TexelKernels, BothDepths);
+
+/// Lets the kernels run on vectors of one width, whatever this processor's widest is.
+class VectorWidth {
+ public:
+  explicit VectorWidth(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
+  ~VectorWidth() { hwy::SetSupportedTargetsForTest(0); }
+  VectorWidth(const VectorWidth&) = delete;
+  VectorWidth& operator=(const VectorWidth&) = delete;
+};
+
+/// Each width that was compiled and that this processor has; the report says which they were.
+void for_each_vector_width(const std::function<void()>& check) {
+  std::string names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const VectorWidth width(target);
+    check();
+    names += std::string(names.empty() ? "" : " ") + hwy::TargetName(target);
+  }
+  EXPECT_FALSE(names.empty());
+  std::cout << "on " << names << '\n';
+}
+
+/// Bytes in a buffer of just their number: AddressSanitizer finds who reads or writes one more.
+struct ExactBytes {
+  std::size_t size;
+  std::unique_ptr<std::byte[]> bytes = std::make_unique<std::byte[]>(size);
+
+  explicit ExactBytes(std::size_t count) : size(count) {}
+};
+
+/// A brick of noise with its slack, and nothing behind it.
+template <typename Level>
+struct NoisyBrick {
+  std::array<int, 3> shape;  // z, y, x
+  TexelBlocks blocks{shape, 8 * static_cast<int>(sizeof(Level))};
+  ExactBytes memory{blocks.brick_bytes() + TexelBlocks::slack()};
+
+  NoisyBrick(const std::array<int, 3>& zyx, std::mt19937& random) : shape(zyx) {
+    ExactBytes voxels(static_cast<std::size_t>(shape[0] * shape[1] * shape[2]) * 3 * sizeof(Level));
+    for (std::size_t i = 0; i < voxels.size; ++i) {
+      // Extreme levels are where arithmetic overflows.
+      const auto value = random() % 4 == 0 ? (random() % 2 == 0 ? 0U : 255U) : random();
+      voxels.bytes[i] = static_cast<std::byte>(value & 255U);
+    }
+    blocks.lay_out({voxels.bytes.get(), voxels.size}, memory.bytes.get());
+  }
+
+  const std::byte* texels() const { return memory.bytes.get(); }
+  int side(std::size_t axis) const { return shape[2 - axis]; }
+};
+
+constexpr std::array<int, 3> kShape{6, 11, 13};
+constexpr std::int32_t kVoxel = 1 << kFractionBits;
+
+/// A row somewhere in a box of bricks, or partly beside it; steps may be 0 or go back.
+RowPath random_path(int count, bool powers_of_two, std::mt19937& random) {
+  RowPath path;
+  path.block_row_bytes = 64 * (1 + static_cast<int>(random() % 9));
+  path.layer_bytes = path.block_row_bytes * (1 + static_cast<int>(random() % 9));
+  int slot_stride = 1;
+  for (RowAxis& axis : path.axes) {
+    axis.side = powers_of_two ? 1 << random() % 6 : 1 + static_cast<int>(random() % 40);
+    axis.first = -static_cast<int>(random() % 3) * axis.side;
+    axis.last = axis.first + static_cast<int>(random() % 300);
+    axis.first = std::max(axis.first, 0);
+    axis.last = std::max(axis.last, axis.first);
+    axis.base = static_cast<int>(random() % 300) - 5;
+    axis.start = static_cast<std::int32_t>(random() % kMostVoxels) * kVoxel +
+                 static_cast<std::int32_t>(random() % kVoxel);
+    const auto to = static_cast<std::int32_t>(random() % (std::uint32_t{kMostVoxels} * kVoxel));
+    axis.step = random() % 4 == 0 ? 0 : (to - axis.start) / std::max(count, 1);
+    axis.slot_stride = slot_stride;
+    axis.next = random() % 4 == 0 ? 0 : 1;
+    slot_stride *= axis.last / axis.side + 1;
+  }
+  return path;
+}
+
+TEST(RowKernels, FindBricksAsTheScalarOnesDo) {
+  for_each_vector_width([] {
+    std::mt19937 random(1);
+    for (int count = 1; count <= kMostPixels; ++count) {
+      const RowPath path = random_path(count, count % 2 == 0, random);
+      const auto pixels = static_cast<std::size_t>(count);
+      RowBricks got{std::vector<std::int32_t>(pixels + kRoomPixels),
+                    std::vector<std::int32_t>(pixels + kRoomPixels)};
+      RowBricks wanted = got;
+      find_bricks(path, pixels, got);
+      scalar::find_bricks(path, pixels, wanted);
+      for (std::size_t i = 0; i < pixels; ++i) {
+        ASSERT_EQ(got.near[i], wanted.near[i]) << i << " of " << count;
+        ASSERT_EQ(got.far[i], wanted.far[i]) << i << " of " << count;
+      }
+    }
+  });
+}
+
+// The room behind the last pixel belongs to the kernels and holds places of texels.
+TYPED_TEST(TexelKernels, PlaceRowsAsTheScalarOnesDo) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(2);
+    for (int count = 1; count <= kMostPixels; ++count) {
+      const RowPath path = random_path(count, count % 2 == 0, random);
+      const auto pixels = static_cast<std::size_t>(count);
+      for (const bool crosses : {false, true}) {
+        RowTexels<Level> got;
+        for (std::size_t pair = 0; pair < 4; ++pair) {
+          got.slots[pair].resize(pixels + kRoomPixels);
+          got.offsets[pair].resize(pixels + kRoomPixels);
+        }
+        got.parted.resize(pixels + kRoomPixels);
+        RowTexels<Level> wanted = got;
+        PixelPlaces<Level> places;
+        places.resize(pixels);
+        places.crosses = crosses;
+        PixelPlaces<Level> wanted_places = places;
+        place_row(path, pixels, got, places);
+        scalar::place_row(path, pixels, wanted, wanted_places);
+        for (std::size_t i = 0; i < pixels; ++i) {
+          for (std::size_t pair = 0; pair < (crosses ? 4U : 2U); ++pair) {
+            ASSERT_EQ(got.slots[pair][i], wanted.slots[pair][i]) << i << " of " << count;
+            ASSERT_EQ(got.offsets[pair][i], wanted.offsets[pair][i]) << i << " of " << count;
+          }
+          ASSERT_EQ(got.parted[i], wanted.parted[i]);
+          ASSERT_EQ(places.x[i], wanted_places.x[i]);
+          ASSERT_EQ(places.y[i], wanted_places.y[i]);
+          ASSERT_EQ(places.z[i], wanted_places.z[i]);
+        }
+      }
+    }
+  });
+}
+
+/// Places of random texels of two bricks, with random parts, some at their ends.
+template <typename Level>
+PixelPlaces<Level> random_places(const NoisyBrick<Level>& upper, const NoisyBrick<Level>& lower,
+                                 std::size_t count, bool crosses, std::mt19937& random) {
+  PixelPlaces<Level> places;
+  places.resize(count);
+  places.crosses = crosses;
+  places.down = upper.blocks.layer_bytes();
+  for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
+    const auto along = [&](std::size_t axis, int neighbours) {
+      const auto texels = static_cast<unsigned>(upper.side(axis) - neighbours);
+      return upper.blocks.along(axis, static_cast<int>(random() % texels));
+    };
+    // Without a brick below the layers go as far as the last but one; the pair begins anywhere.
+    const int place = along(0, 0) + along(1, 0) + along(2, crosses ? 0 : 1);
+    const int next = along(0, 0) + along(1, 0) + along(2, crosses ? 0 : 1);
+    places.upper[0][i] = upper.texels() + place;
+    places.upper[1][i] = upper.texels() + next;
+    places.lower[0][i] = lower.texels() + place;
+    places.lower[1][i] = lower.texels() + next;
+    for (auto* parts : {&places.x, &places.y, &places.z}) {
+      const std::array<float, 4> values{0.0F, 0x1.fffffep-1F, 0.5F,
+                                        static_cast<float>(random() % 100'000) / 100'000.0F};
+      (*parts)[i] = PixelPlaces<Level>::part(values[random() % 4]);
+    }
+  }
+  return places;
+}
+
+/// Pixels as a kernel wrote them: room for whole vectors, and something behind it that must stay.
+template <typename Level>
+struct Pixels {
+  static constexpr Level kUntouched = 77;
+  std::vector<Level> levels;
+
+  explicit Pixels(std::size_t count) : levels(4 * (count + kRoomPixels + 8), kUntouched) {}
+
+  bool is_untouched_behind(std::size_t count) const {
+    return std::all_of(levels.begin() + static_cast<std::ptrdiff_t>(4 * (count + kRoomPixels)),
+                       levels.end(), [](Level level) { return level == kUntouched; });
+  }
+};
+
+TYPED_TEST(TexelKernels, MixLinearlyAsTheScalarOnesDo) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    constexpr int kOff = sizeof(Level) == 1 ? 0 : 1;  // 8 bits: to the bit
+    std::mt19937 random(3);
+    const NoisyBrick<Level> upper(kShape, random);
+    const NoisyBrick<Level> lower(kShape, random);
+    for (std::size_t count = 1; count <= 300; count += count < 40 ? 1 : 13) {
+      for (const bool crosses : {false, true}) {
+        const PixelPlaces<Level> places = random_places(upper, lower, count, crosses, random);
+        Pixels<Level> got(count);
+        Pixels<Level> wanted(count);
+        mix_linear(places, count, got.levels.data());
+        scalar::mix_linear(places, count, wanted.levels.data());
+        for (std::size_t i = 0; i < count; ++i) {
+          for (std::size_t colour = 0; colour < 3; ++colour) {
+            ASSERT_LE(std::abs(got.levels[4 * i + colour] - wanted.levels[4 * i + colour]), kOff)
+                << "pixel " << i << " of " << count;
+          }
+        }
+        ASSERT_TRUE(got.is_untouched_behind(count));
+      }
+    }
+  });
+}
+
+// The scalar kernels against the definition, so that what the others are held against is right.
+TYPED_TEST(TexelKernels, MixLinearlyWithinALevelOfExactArithmetic) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(4);
+    const NoisyBrick<Level> upper(kShape, random);
+    const NoisyBrick<Level> lower(kShape, random);
+    constexpr std::size_t kCount = 1000;
+    const double unit = sizeof(Level) == 1 ? 32768.0 : 1.0;
+    for (const bool crosses : {false, true}) {
+      const PixelPlaces<Level> places = random_places(upper, lower, kCount, crosses, random);
+      Pixels<Level> got(kCount);
+      mix_linear(places, kCount, got.levels.data());
+      for (std::size_t i = 0; i < kCount; ++i) {
+        for (int colour = 0; colour < 3; ++colour) {
+          double sum = 0.0;
+          for (std::size_t row = 0; row < 2; ++row) {
+            for (int x = 0; x < 2; ++x) {
+              const std::byte* above = places.upper[row][i];
+              const std::byte* below = crosses ? places.lower[row][i] : above + places.down;
+              const double z = places.z[i] / unit;
+              const double y = places.y[i] / unit;
+              const double weight_x = x == 0 ? 1.0 - places.x[i] / unit : places.x[i] / unit;
+              sum += (row == 0 ? 1.0 - y : y) * weight_x *
+                     ((1.0 - z) * scalar::level_of<Level>(above, x, colour) +
+                      z * scalar::level_of<Level>(below, x, colour));
+            }
+          }
+          ASSERT_NEAR(got.levels[4 * i + static_cast<std::size_t>(colour)], sum,
+                      0.5 + (sizeof(Level) == 1 ? 0.03 : 0.04));
+        }
+      }
+    }
+  });
+}
+
+TYPED_TEST(TexelKernels, GiveAVoxelsOwnColourAtItsCentre) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(5);
+    const NoisyBrick<Level> brick(kShape, random);
+    constexpr std::size_t kCount = 500;
+    PixelPlaces<Level> places = random_places(brick, brick, kCount, true, random);
+    for (auto* parts : {&places.x, &places.y, &places.z}) {
+      std::fill(parts->begin(), parts->end(), typename PixelPlaces<Level>::Part{0});
+    }
+    Pixels<Level> got(kCount);
+    mix_linear(places, kCount, got.levels.data());
+    for (std::size_t i = 0; i < kCount; ++i) {
+      for (int colour = 0; colour < 3; ++colour) {
+        ASSERT_EQ(got.levels[4 * i + static_cast<std::size_t>(colour)],
+                  scalar::level_of<Level>(places.upper[0][i], 0, colour));
+      }
+    }
+  });
+}
+
+/// The exact colour at `part` between 4³ texels; what the kernel clamps is not clamped yet.
+template <typename Level>
+double exact_cubic(const std::array<Level, 256>& texels, const std::array<float, 3>& part,
+                   std::size_t colour) {
+  std::array<std::array<double, 4>, 3> weights{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double t = part[axis];
+    for (int i = 0; i < 4; ++i) {  // Keys 1981, equation 15: u is the distance to the texel
+      const double u = std::abs(t + 1.0 - i);
+      weights[axis][static_cast<std::size_t>(i)] =
+          u < 1.0 ? 1.5 * u * u * u - 2.5 * u * u + 1.0
+                  : (u < 2.0 ? -0.5 * u * u * u + 2.5 * u * u - 4.0 * u + 2.0 : 0.0);
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 64; ++i) {
+    sum += weights[0][i % 4] * weights[1][i / 4 % 4] * weights[2][i / 16] * texels[4 * i + colour];
+  }
+  return sum;
+}
+
+TYPED_TEST(TexelKernels, MixCubicallyAsTheScalarOnesAndExactArithmeticDo) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    constexpr double kMost = std::numeric_limits<Level>::max();
+    std::mt19937 random(6);
+    int clamped = 0;
+    for (int round = 0; round < 1000; ++round) {
+      std::array<Level, 256> texels{};
+      for (Level& level : texels) {
+        level = static_cast<Level>(round % 2 == 0 ? random() : (random() % 2) * 65535);
+      }
+      std::array<float, 3> part{};
+      for (float& each : part) {
+        each = random() % 5 == 0 ? 0.0F : static_cast<float>(random() % 1000) / 1000.0F;
+      }
+      std::array<Level, 4> got{};
+      std::array<Level, 4> wanted{};
+      mix_cubic(texels.data(), part, got.data());
+      scalar::mix_cubic(texels.data(), part, wanted.data());
+      for (std::size_t colour = 0; colour < 3; ++colour) {
+        const double exact = exact_cubic(texels, part, colour);
+        clamped += exact < 0.0 || exact > kMost ? 1 : 0;
+        ASSERT_LE(std::abs(got[colour] - wanted[colour]), 1);
+        ASSERT_NEAR(got[colour], std::clamp(exact, 0.0, kMost), 0.6);
+      }
+    }
+    EXPECT_GT(clamped, 10);
+  });
+}
+
+TYPED_TEST(TexelKernels, PackPixelsAndNothingElse) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(7);
+    for (std::size_t count = 0; count <= 200; ++count) {
+      const auto pixels = std::make_unique<Level[]>(4 * count);
+      for (std::size_t i = 0; i < 4 * count; ++i) {
+        pixels[i] = static_cast<Level>(random());
+      }
+      const auto rgb = std::make_unique<Level[]>(3 * count);
+      pack_pixels(pixels.get(), count, rgb.get());
+      for (std::size_t i = 0; i < 3 * count; ++i) {
+        ASSERT_EQ(rgb[i], pixels[i / 3 * 4 + i % 3]) << i << " of " << count;
+      }
+    }
+  });
+}
+
+TYPED_TEST(TexelKernels, ReadNothingBehindABricksSlack) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    std::mt19937 random(8);
+    for (const auto& shape : {kShape, std::array<int, 3>{1, 1, 1}, std::array<int, 3>{1, 8, 4},
+                              std::array<int, 3>{3, 2, 5}}) {
+      const NoisyBrick<Level> brick(shape, random);
+      // The last texel of all: what stands where its neighbours would be weighs nothing.
+      const std::byte* const last = brick.texels() + brick.blocks.along_x(shape[2] - 1) +
+                                    brick.blocks.along_y(shape[1] - 1) +
+                                    brick.blocks.along_z(shape[0] - 1);
+      PixelPlaces<Level> places;
+      places.resize(5);
+      for (auto& row : places.upper) {
+        std::fill(row.begin(), row.end(), last);
+      }
+      Pixels<Level> got(5);
+      mix_linear(places, 5, got.levels.data());
+      for (std::size_t i = 0; i < 5; ++i) {
+        for (int colour = 0; colour < 3; ++colour) {
+          ASSERT_EQ(got.levels[4 * i + static_cast<std::size_t>(colour)],
+                    scalar::level_of<Level>(last, 0, colour));
+        }
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct
