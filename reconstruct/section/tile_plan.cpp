@@ -155,19 +155,17 @@ class TilePlan::Walk {
     return side_ > kMostTexels ? std::max(0, texel - kMostTexels / 2) / kBlock * kBlock : 0;
   }
   std::uint32_t position(int column, int base) const {
-    const double place = (start_ + column * step_ - origin_ - base) * kUnit;
-    return static_cast<std::uint32_t>(
-        std::clamp(place, 0.0, static_cast<double>(positions_from(base) - 1)));
+    const auto place =
+        static_cast<std::int64_t>((start_ + column * step_ - origin_ - base) * kUnit);
+    return static_cast<std::uint32_t>(std::clamp<std::int64_t>(place, 0, positions_from(base) - 1));
   }
   /// How many of `count` pixels from a position on stay among the brick's. At most a last few
   /// don't.
   int kept(int count, std::uint32_t start, std::int32_t step, int base) const {
-    const auto out = [&](int pixel) {
-      const std::int64_t position = start + std::int64_t{pixel} * step;
-      return position < 0 || position >= positions_from(base);
-    };
-    while (count > 1 && out(count - 1)) {
-      --count;
+    const std::int64_t positions = positions_from(base);
+    std::int64_t position = start + std::int64_t{count - 1} * step;
+    for (; position < 0 || position >= positions; position -= step) {
+      --count;  // not the first, which lies among them
     }
     return count;
   }
