@@ -323,6 +323,20 @@ TEST(TilePlan, OfATileBesideTheCuboidIsEmpty) {
   EXPECT_TRUE(planned.plan.bricks().empty());
 }
 
+// The centres of a coarse level's first layer lie inside the cuboid, half a voxel from its face.
+TEST(TilePlan, OfASectionBeforeTheFirstLayerOfALevelNeedsThatLayerAlone) {
+  MemorySource source;
+  source.chunk_size = {1, 8, 8};
+  source.pyramid = true;
+  const PixelGrid grid{{{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}}, 380, 280}, 20, 20, 15};
+  const Planned planned(source, 1, Interpolation::linear, grid, {{0, 20}, 0, 15});
+  ASSERT_LT(voxel_row(grid, source.level(1), 0).start[2], 0.0);
+  for (const ChunkIndex& brick : planned.plan.bricks()) {
+    EXPECT_EQ(brick.z, 0);
+  }
+  EXPECT_FALSE(planned.plan.bricks().empty());
+}
+
 TEST(TilePlan, NeedsOneBrickForALayerThatLiesInOne) {
   MemorySource source;
   source.chunk_size = {8, 64, 64};
