@@ -42,7 +42,7 @@ std::vector<Bytes> encode_strips(const cv::Mat& rgb, int rows) {
     const int end = std::min(first + rows, rgb.rows);
     strips[number] =
         zlib_stream(rgb.depth() == CV_8U ? predicted_rows<std::uint8_t>(rgb, first, end)
-                                                 : predicted_rows<std::uint16_t>(rgb, first, end));
+                                         : predicted_rows<std::uint16_t>(rgb, first, end));
   });
   return strips;
 }

@@ -1,9 +1,9 @@
 #include "reconstruct/store/volume.hpp"
 
-#include <array>
-#include <fstream>
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <fstream>
 #include <mutex>
 #include <random>
 
