@@ -54,8 +54,10 @@ class InterruptedImport : public testing::Test {
   void wait_for_layers(std::uintmax_t hashes) const {
     const fs::path file = folder_ / ".sample.partial" / "layers.sha256";
     std::error_code error;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!fs::exists(folder_ / "sample") &&
            (!fs::exists(file) || fs::file_size(file, error) < hashes * 82)) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "no layer was stored";
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }

@@ -71,7 +71,9 @@ constexpr std::size_t kFrames = 121;
 TEST_P(InterruptedSeries, LeavesWholeFramesAndIsTakenUp) {
   {
     ChildProcess cutting(command("a"), folder_.path());
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (frames_in("a") < 10) {
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "no frame was made";
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     cutting.send(GetParam());
