@@ -6,8 +6,9 @@
 #define BIOTOMY_PLACE_KERNEL_INL
 #endif
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <hwy/highway.h>
 
@@ -64,162 +65,100 @@ HWY_INLINE PositionVector along_y(PositionVector y, PositionVector block_row_byt
                  hn::ShiftLeft<level_shift>(hn::Sub(hn::ShiftLeft<4>(row), row)));
 }
 
-/// Which brick of the box a voxel lies in, and which texel of it. `kShifts`: all sides are powers
-/// of two, as they usually are; else by float, which tells such small numbers apart exactly.
-template <bool kShifts>
-class Bricks {
- public:
-  HWY_INLINE explicit Bricks(const RowAxis& axis)
-      : side_(axis.side),
-        bits_(hwy::Num0BitsBelowLS1Bit_Nonzero32(static_cast<std::uint32_t>(axis.side))),
-        inverse_side_(1.0F / static_cast<float>(axis.side)) {}
-
-  HWY_INLINE PositionVector of(PositionVector voxel) const {
-    const Positions d;
-    if constexpr (kShifts) {
-      return hn::ShiftRightSame(voxel, static_cast<int>(bits_));
-    } else {
-      const hn::RebindToFloat<Positions> df;
-      const auto middle = hn::Add(hn::ConvertTo(df, voxel), hn::Set(df, 0.5F));
-      return hn::ConvertTo(d, hn::Mul(middle, hn::Set(df, inverse_side_)));
-    }
-  }
-
-  HWY_INLINE PositionVector texel(PositionVector voxel, PositionVector brick) const {
-    const Positions d;
-    if constexpr (kShifts) {
-      return hn::And(voxel, hn::Set(d, side_ - 1));
-    } else {
-      return hn::Sub(voxel, hn::Mul(brick, hn::Set(d, side_)));
-    }
-  }
-
- private:
-  std::int32_t side_;
-  std::size_t bits_;
-  float inverse_side_;
-};
-
-/// Pixels along one axis.
-template <bool kShifts>
+/// A row's positions along one axis.
 class AxisVectors {
  public:
-  HWY_INLINE AxisVectors(const RowAxis& axis, PositionVector pixel) : axis_(axis), bricks_(axis) {
-    const Positions d;
-    const auto last = hn::Set(d, axis.last);
-    position_ = hn::Add(hn::Set(d, axis.start), hn::Mul(pixel, hn::Set(d, axis.step)));
-    const auto voxel = hn::Add(hn::Set(d, axis.base), hn::ShiftRight<kFractionBits>(position_));
-    voxel_ = hn::Min(hn::Max(voxel, hn::Set(d, axis.first)), last);
-    next_ = hn::Min(hn::Add(voxel_, hn::Set(d, axis.next)), last);
-    mixes_ = hn::And(hn::Eq(voxel, voxel_), hn::Lt(voxel, last));
-  }
+  HWY_INLINE explicit AxisVectors(const RowAxis& axis)
+      : axis_(axis),
+        positions_(hn::Add(hn::Set(Positions(), axis.start),
+                           hn::Mul(hn::Iota(Positions(), 0), hn::Set(Positions(), axis.step)))) {}
 
-  HWY_INLINE PositionVector brick() const { return bricks_.of(voxel_); }
-  HWY_INLINE PositionVector next_brick() const { return bricks_.of(next_); }
-  HWY_INLINE PositionVector slot(PositionVector brick) const {
-    return hn::Mul(brick, hn::Set(Positions(), axis_.slot_stride));
+  /// Of pixel `first` and those behind it.
+  HWY_INLINE PositionVector position(std::int32_t first) const {
+    return hn::Add(positions_, hn::Set(Positions(), first * axis_.step));
   }
-  HWY_INLINE PositionVector texel(PositionVector brick) const {
-    return bricks_.texel(voxel_, brick);
+  /// The texel of its brick that the voxel at a position is.
+  HWY_INLINE PositionVector near(PositionVector position, const BrickPair& bricks) const {
+    return texel(position, axis_.base - bricks.near * axis_.side);
   }
-  HWY_INLINE PositionVector next_texel(PositionVector brick) const {
-    return bricks_.texel(next_, brick);
+  /// Likewise the next voxel, of its own.
+  HWY_INLINE PositionVector far(PositionVector position, const BrickPair& bricks) const {
+    return texel(position, axis_.base + axis_.next - bricks.far * axis_.side);
   }
-  /// The position, with nothing behind the point where there is nothing to mix.
-  HWY_INLINE PositionVector position() const { return hn::IfThenElseZero(mixes_, position_); }
 
  private:
+  HWY_INLINE static PositionVector texel(PositionVector position, int origin) {
+    return hn::Add(hn::ShiftRight<kFractionBits>(position), hn::Set(Positions(), origin));
+  }
+
   const RowAxis& axis_;
-  Bricks<kShifts> bricks_;
-  PositionVector position_;
-  PositionVector voxel_;
-  PositionVector next_;
-  hn::Mask<Positions> mixes_;
+  PositionVector positions_;
 };
 
-inline bool sides_are_powers_of_two(const RowPath& path) {
-  return std::all_of(path.axes.begin(), path.axes.end(),
-                     [](const RowAxis& axis) { return (axis.side & (axis.side - 1)) == 0; });
+HWY_INLINE void store_places(const std::byte* brick, PositionVector offsets,
+                             const std::byte** out) {
+  static_assert(sizeof *out == sizeof(std::int64_t), "vectors hold places in memory as 64 bits");
+  const hn::Half<Positions> half;
+  const hn::Repartition<std::int64_t, Positions> d64;
+  const auto base = hn::Set(d64, reinterpret_cast<std::int64_t>(brick));
+  auto* const places = reinterpret_cast<std::int64_t*>(out);
+  hn::StoreU(hn::Add(base, hn::PromoteTo(d64, hn::LowerHalf(half, offsets))), d64, places);
+  hn::StoreU(hn::Add(base, hn::PromoteTo(d64, hn::UpperHalf(half, offsets))), d64,
+             places + hn::Lanes(d64));
 }
 
-template <bool kShifts>
-void find_bricks_by(const RowPath& path, std::size_t count, RowBricks& bricks) {
-  const Positions d;
-  const auto last = hn::Set(d, static_cast<std::int32_t>(count) - 1);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto pixel = hn::Min(hn::Iota(d, static_cast<std::int32_t>(i)), last);
-    const AxisVectors<kShifts> x(path.axes[0], pixel);
-    const AxisVectors<kShifts> y(path.axes[1], pixel);
-    const AxisVectors<kShifts> z(path.axes[2], pixel);
-    hn::StoreU(hn::Add(x.slot(x.brick()), hn::Add(y.slot(y.brick()), z.slot(z.brick()))), d,
-               bricks.near.data() + i);
-    hn::StoreU(
-        hn::Add(x.slot(x.next_brick()), hn::Add(y.slot(y.next_brick()), z.slot(z.next_brick()))), d,
-        bricks.far.data() + i);
-  }
-}
-
-inline void find_bricks(const RowPath& path, std::size_t count, RowBricks& bricks) {
-  if (sides_are_powers_of_two(path)) {
-    find_bricks_by<true>(path, count, bricks);
-  } else {
-    find_bricks_by<false>(path, count, bricks);
-  }
-}
-
-template <bool kShifts, typename Level>
-void place_row_by(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
-                  PixelPlaces<Level>& places) {
+template <bool kCrosses, typename Level>
+HWY_INLINE void place_runs_by(const RowPath& path, std::span<const BrickRun> runs,
+                              const std::byte* const* bricks, PixelPlaces<Level>& places) {
   constexpr int kShift = sizeof(Level) == 1 ? 0 : 1;
   const Positions d;
-  const auto last = hn::Set(d, static_cast<std::int32_t>(count) - 1);
+  const AxisVectors x_axis(path.axes[0]);
+  const AxisVectors y_axis(path.axes[1]);
+  const AxisVectors z_axis(path.axes[2]);
   const auto block_row_bytes = hn::Set(d, path.block_row_bytes);
   const auto layer_bytes = hn::Set(d, path.layer_bytes);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    // Behind the row's end the last pixel is repeated, so that every place is one of a texel.
-    const auto pixel = hn::Min(hn::Iota(d, static_cast<std::int32_t>(i)), last);
-    const AxisVectors<kShifts> x(path.axes[0], pixel);
-    const AxisVectors<kShifts> y(path.axes[1], pixel);
-    const AxisVectors<kShifts> z(path.axes[2], pixel);
-    const auto brick_x = x.brick();
-    const auto slot_x = x.slot(brick_x);
-    const auto offset_x = along_x<kShift>(x.texel(brick_x));
-    hn::StoreU(hn::Sub(x.next_brick(), brick_x), d, texels.parted.data() + i);
-    const auto store = [&](std::size_t pair, PositionVector brick_y, PositionVector texel_y,
-                           PositionVector brick_z, PositionVector texel_z) HWY_ATTR {
-      hn::StoreU(hn::Add(slot_x, hn::Add(y.slot(brick_y), z.slot(brick_z))), d,
-                 texels.slots[pair].data() + i);
-      hn::StoreU(hn::Add(offset_x, hn::Add(along_y<kShift>(texel_y, block_row_bytes),
-                                           hn::Mul(texel_z, layer_bytes))),
-                 d, texels.offsets[pair].data() + i);
-    };
-    const auto brick_y = y.brick();
-    const auto next_brick_y = y.next_brick();
-    const auto texel_y = y.texel(brick_y);
-    const auto next_texel_y = y.next_texel(next_brick_y);
-    const auto brick_z = z.brick();
-    const auto texel_z = z.texel(brick_z);
-    store(0, brick_y, texel_y, brick_z, texel_z);
-    store(1, next_brick_y, next_texel_y, brick_z, texel_z);
-    if (places.crosses) {
-      const auto next_brick_z = z.next_brick();
-      const auto next_texel_z = z.next_texel(next_brick_z);
-      store(2, brick_y, texel_y, next_brick_z, next_texel_z);
-      store(3, next_brick_y, next_texel_y, next_brick_z, next_texel_z);
+  for (const BrickRun& run : runs) {
+    if (run.parted) {
+      continue;
     }
-    store_part(x.position(), places.x.data() + i);
-    store_part(y.position(), places.y.data() + i);
-    store_part(z.position(), places.z.data() + i);
+    const auto& [x_bricks, y_bricks, z_bricks] = run.bricks;
+    const auto brick = [&](int along_y, int along_z) {
+      return bricks[path.slot(x_bricks.near, along_y, along_z)];
+    };
+    const std::byte* const here = brick(y_bricks.near, z_bricks.near);
+    const std::byte* const next = brick(y_bricks.far, z_bricks.near);
+    for (int i = run.first; i < run.last; i += static_cast<int>(hn::Lanes(d))) {
+      const auto x = x_axis.position(i);
+      const auto y = y_axis.position(i);
+      const auto z = z_axis.position(i);
+      const auto texel = along_x<kShift>(x_axis.near(x, x_bricks));
+      const auto row = hn::Add(texel, along_y<kShift>(y_axis.near(y, y_bricks), block_row_bytes));
+      const auto next_row =
+          hn::Add(texel, along_y<kShift>(y_axis.far(y, y_bricks), block_row_bytes));
+      const auto layer = hn::Mul(z_axis.near(z, z_bricks), layer_bytes);
+      store_places(here, hn::Add(row, layer), places.upper[0].data() + i);
+      store_places(next, hn::Add(next_row, layer), places.upper[1].data() + i);
+      if constexpr (kCrosses) {
+        const auto next_layer = hn::Mul(z_axis.far(z, z_bricks), layer_bytes);
+        store_places(brick(y_bricks.near, z_bricks.far), hn::Add(row, next_layer),
+                     places.lower[0].data() + i);
+        store_places(brick(y_bricks.far, z_bricks.far), hn::Add(next_row, next_layer),
+                     places.lower[1].data() + i);
+      }
+      store_part(x, places.x.data() + i);
+      store_part(y, places.y.data() + i);
+      store_part(z, places.z.data() + i);
+    }
   }
 }
 
 template <typename Level>
-void place_row(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
-               PixelPlaces<Level>& places) {
-  if (sides_are_powers_of_two(path)) {
-    place_row_by<true>(path, count, texels, places);
+void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
+                PixelPlaces<Level>& places) {
+  if (places.crosses) {
+    place_runs_by<true>(path, runs, bricks, places);
   } else {
-    place_row_by<false>(path, count, texels, places);
+    place_runs_by<false>(path, runs, bricks, places);
   }
 }
 

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kTileColumns = kMostPixels;
 constexpr int kTileColumnsOf16Bits =
     32;  // so that what the steps' rounding adds up stays below a level
-constexpr int kTileRows = 16;
+constexpr int kTileRows = 32;
 constexpr int kStripRows = 128;
 constexpr int kLeastStripRows = 8;
 constexpr double kBoxBricks = 4096;  // a tile's table stays in the nearest cache levels
@@ -57,6 +57,16 @@ cv::Size tile_size(const BrickSource& source, int level, const PixelGrid& grid) 
   return size;
 }
 
+template <typename Level>
+std::array<Level, 3> levels_of(const Colour& colour) {
+  constexpr int kScale = sizeof(Level) == 1 ? 1 : 257;
+  std::array<Level, 3> levels{};
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i] = static_cast<Level>(colour[i] * kScale);
+  }
+  return levels;
+}
+
 /// Some rows of the picture, and all that sampling them from one level needs.
 struct Strip {
   int level = 0;
@@ -73,31 +83,29 @@ class PictureSampler {
  public:
   PictureSampler(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                  const Colour& background, const OnRows& on_rows)
-      : source_(source), grid_(grid), kind_(kind), on_rows_(on_rows), samplers_([kind] {
-          return TileSampler<Level>(kind);
-        }) {
-    constexpr int kScale = sizeof(Level) == 1 ? 1 : 257;
-    for (std::size_t colour = 0; colour < 3; ++colour) {
-      background_[colour] = static_cast<Level>(background[colour] * kScale);
-    }
-  }
+      : source_(source),
+        grid_(grid),
+        kind_(kind),
+        on_rows_(on_rows),
+        samplers_([kind, colour = levels_of<Level>(background)] {
+          return TileSampler<Level>(kind, colour);
+        }) {}
 
-  SampledImage sample() {
+  SampleStatistics sample(cv::Mat& image) {
     const auto start = Clock::now();
     const LevelChoice levels = level_choice(source_, grid_.pixel, kind_);
-    SampledImage result{cv::Mat(grid_.rows, grid_.columns, sizeof(Level) == 1 ? CV_8UC3 : CV_16UC3),
-                        {}};
-    result.statistics.finest_level = levels.finer;
-    result.statistics.levels = levels.part > 0.0 ? 2 : 1;
-    rows_in_all_ = std::int64_t{grid_.rows} * result.statistics.levels;
-    sample_level(levels.finer, 0.0, result.image);
+    image.create(grid_.rows, grid_.columns, sizeof(Level) == 1 ? CV_8UC3 : CV_16UC3);
+    SampleStatistics statistics;
+    statistics.finest_level = levels.finer;
+    statistics.levels = levels.part > 0.0 ? 2 : 1;
+    rows_in_all_ = std::int64_t{grid_.rows} * statistics.levels;
+    sample_level(levels.finer, 0.0, image);
     if (levels.part > 0.0) {
-      sample_level(levels.finer + 1, levels.part, result.image);
+      sample_level(levels.finer + 1, levels.part, image);
     }
-    result.statistics.chunks_touched = chunks_touched_;
-    result.statistics.sample_s =
-        std::chrono::duration<double>(Clock::now() - start - fetching_).count();
-    return result;
+    statistics.chunks_touched = chunks_touched_;
+    statistics.sample_s = std::chrono::duration<double>(Clock::now() - start - fetching_).count();
+    return statistics;
   }
 
  private:
@@ -185,7 +193,7 @@ class PictureSampler {
         const auto place = std::lower_bound(strip.bricks.begin(), strip.bricks.end(), brick);
         texels.push_back(bricks[static_cast<std::size_t>(place - strip.bricks.begin())].get());
       }
-      samplers_.local().fill(plan, texels, background_, first_row, picture);
+      samplers_.local().fill(plan, texels, first_row, picture);
     });
   }
 
@@ -195,7 +203,6 @@ class PictureSampler {
   const OnRows& on_rows_;
   std::int64_t rows_done_ = 0;
   std::int64_t rows_in_all_ = 0;
-  std::array<Level, 3> background_{};
   int rows_ = kStripRows;  // of a strip
   tbb::enumerable_thread_specific<TileSampler<Level>> samplers_;
   std::vector<ChunkIndex>
@@ -206,11 +213,18 @@ class PictureSampler {
 
 }  // namespace
 
+SampleStatistics sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
+                             const Colour& background, cv::Mat& image, const OnRows& on_rows) {
+  return source.bits() == 16
+             ? PictureSampler<std::uint16_t>(source, grid, kind, background, on_rows).sample(image)
+             : PictureSampler<std::uint8_t>(source, grid, kind, background, on_rows).sample(image);
+}
+
 SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                          const Colour& background, const OnRows& on_rows) {
-  return source.bits() == 16
-             ? PictureSampler<std::uint16_t>(source, grid, kind, background, on_rows).sample()
-             : PictureSampler<std::uint8_t>(source, grid, kind, background, on_rows).sample();
+  SampledImage sampled;
+  sampled.statistics = sample_grid(source, grid, kind, background, sampled.image, on_rows);
+  return sampled;
 }
 
 }  // namespace biotomy::reconstruct

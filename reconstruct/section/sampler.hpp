@@ -39,4 +39,9 @@ using OnRows = std::function<void(std::int64_t done, std::int64_t total)>;
 SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                          const Colour& background, const OnRows& on_rows = {});
 
+/// Likewise into `image`, which keeps its memory where it has the right size and type already: for
+/// pictures that follow each other, as new memory costs as much as sampling does.
+SampleStatistics sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
+                             const Colour& background, cv::Mat& image, const OnRows& on_rows = {});
+
 }  // namespace biotomy::reconstruct

@@ -27,12 +27,9 @@ namespace kernels = scalar;
 namespace kernels = HWY_NAMESPACE;
 #endif
 
-void find_bricks_32(const RowPath& path, std::size_t count, RowBricks& bricks) {
-  kernels::find_bricks(path, count, bricks);
-}
-void place_row_8(const RowPath& path, std::size_t count, RowTexels<std::uint8_t>& texels,
-                 PixelPlaces<std::uint8_t>& places) {
-  kernels::place_row(path, count, texels, places);
+void place_runs_8(const RowPath& path, std::span<const BrickRun> runs,
+                  const std::byte* const* bricks, PixelPlaces<std::uint8_t>& places) {
+  kernels::place_runs(path, runs, bricks, places);
 }
 void mix_linear_8(const PixelPlaces<std::uint8_t>& places, std::size_t count,
                   std::uint8_t* pixels) {
@@ -45,9 +42,9 @@ void mix_cubic_8(const std::uint8_t* texels, const std::array<float, 3>& part,
 void pack_pixels_8(const std::uint8_t* pixels, std::size_t count, std::uint8_t* rgb) {
   kernels::pack_pixels(pixels, count, rgb);
 }
-void place_row_16(const RowPath& path, std::size_t count, RowTexels<std::uint16_t>& texels,
-                  PixelPlaces<std::uint16_t>& places) {
-  kernels::place_row(path, count, texels, places);
+void place_runs_16(const RowPath& path, std::span<const BrickRun> runs,
+                   const std::byte* const* bricks, PixelPlaces<std::uint16_t>& places) {
+  kernels::place_runs(path, runs, bricks, places);
 }
 void mix_linear_16(const PixelPlaces<std::uint16_t>& places, std::size_t count,
                    std::uint16_t* pixels) {
@@ -67,23 +64,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace biotomy::reconstruct {
 
-HWY_EXPORT(find_bricks_32);
-HWY_EXPORT(place_row_8);
+HWY_EXPORT(place_runs_8);
 HWY_EXPORT(mix_linear_8);
 HWY_EXPORT(mix_cubic_8);
 HWY_EXPORT(pack_pixels_8);
-HWY_EXPORT(place_row_16);
+HWY_EXPORT(place_runs_16);
 HWY_EXPORT(mix_linear_16);
 HWY_EXPORT(mix_cubic_16);
 HWY_EXPORT(pack_pixels_16);
 
-void find_bricks(const RowPath& path, std::size_t count, RowBricks& bricks) {
-  HWY_DYNAMIC_DISPATCH(find_bricks_32)(path, count, bricks);
-}
 template <>
-void place_row(const RowPath& path, std::size_t count, RowTexels<std::uint8_t>& texels,
-               PixelPlaces<std::uint8_t>& places) {
-  HWY_DYNAMIC_DISPATCH(place_row_8)(path, count, texels, places);
+void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
+                PixelPlaces<std::uint8_t>& places) {
+  HWY_DYNAMIC_DISPATCH(place_runs_8)(path, runs, bricks, places);
 }
 template <>
 void mix_linear(const PixelPlaces<std::uint8_t>& places, std::size_t count, std::uint8_t* pixels) {
@@ -98,9 +91,9 @@ void pack_pixels(const std::uint8_t* pixels, std::size_t count, std::uint8_t* rg
   HWY_DYNAMIC_DISPATCH(pack_pixels_8)(pixels, count, rgb);
 }
 template <>
-void place_row(const RowPath& path, std::size_t count, RowTexels<std::uint16_t>& texels,
-               PixelPlaces<std::uint16_t>& places) {
-  HWY_DYNAMIC_DISPATCH(place_row_16)(path, count, texels, places);
+void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
+                PixelPlaces<std::uint16_t>& places) {
+  HWY_DYNAMIC_DISPATCH(place_runs_16)(path, runs, bricks, places);
 }
 template <>
 void mix_linear(const PixelPlaces<std::uint16_t>& places, std::size_t count,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace biotomy::reconstruct {
 // processor has is chosen when the program runs. Colours come out as pixels of four levels, R G B
 // and one that means nothing, and are packed to R G B at the end.
 //
-// A row of pixels is sampled in two passes: first all its places are computed, then its colours. In
-// one pass the second half would wait for the first at every step, as addresses that a vector has
-// computed reach the loads through memory.
+// A row of pixels is sampled in two passes: first all its places are computed, run by run, then its
+// colours. In one pass the second half would wait for the first at every step, as addresses that a
+// vector has computed reach the loads through memory.
 
 /// Positions are in fixed point: a number of voxels with kFractionBits after the point. Whole steps
 /// are added to them, so nothing but the step's own rounding (2⁻²³ voxel at most) adds up over the
@@ -43,32 +44,40 @@ struct RowPath {
   std::array<RowAxis, 3> axes;  ///< x, y, z
   int block_row_bytes = 0;      ///< of a brick, as TexelBlocks says
   int layer_bytes = 0;
+
+  /// The number in the box of the brick with these numbers along x, y and z.
+  int slot(int x, int y, int z) const {
+    return x * axes[0].slot_stride + y * axes[1].slot_stride + z * axes[2].slot_stride;
+  }
 };
 
-/// Which bricks the supports of a row's pixels lie in, for linear: the slot of the voxel at the
-/// whole parts of the position, and that of the voxel after it along all three axes.
-struct RowBricks {
-  std::vector<std::int32_t> near;
-  std::vector<std::int32_t> far;
-};
-void find_bricks(const RowPath& path, std::size_t count, RowBricks& bricks);
+/// Along one axis the bricks, by their number in the box, of a pixel's voxel and of the next, with
+/// which it is mixed.
+struct BrickPair {
+  int near = 0;
+  int far = 0;
 
-/// Where the pixels' texels lie: of the pairs of texels at the whole part of y and the next (bit 0
-/// of the place in the arrays) and of z and the next (bit 1) the brick's slot and the bytes from
-/// its beginning. Where `parted` is not 0 the right texel of a pair is in another brick than the
-/// left.
-template <typename Level>
-struct RowTexels {
-  std::array<std::vector<std::int32_t>, 4> slots;
-  std::array<std::vector<std::int32_t>, 4> offsets;
-  std::vector<std::int32_t> parted;
+  bool operator==(const BrickPair&) const = default;
+};
+
+/// Pixels of a row, from `first` to before `last`, whose supports for linear lie in the same
+/// bricks.
+struct BrickRun {
+  int first = 0;
+  int last = 0;
+  std::array<BrickPair, 3> bricks;  ///< x, y, z
+
+  /// Texels of the support have to be gathered one by one: the two of a pair are in different
+  /// bricks, or one would be beyond the volume's border, or the row runs from layers of one brick
+  /// into those of another.
+  bool parted = false;
 };
 
 /// Where the pixels of a row lie, for the linear kernel: the pair of texels (at the whole part of x
 /// and the next) in the row of the whole part of y and in the next row, both in the layer of the
-/// whole part of z; the pairs in the next layer lie `down` bytes behind those or, where that is in
-/// another brick, at `lower`. And the place between the texels: 15 bits with levels of 8 bits,
-/// float with 16.
+/// whole part of z; the pairs in the next layer lie `down` bytes behind those or, where all of the
+/// row's are in another brick, at `lower`. And the place between the texels: 15 bits with levels of
+/// 8 bits, float with 16.
 template <typename Level>
 struct PixelPlaces {
   using Part = std::conditional_t<sizeof(Level) == 1, std::int16_t, float>;
@@ -99,11 +108,12 @@ struct PixelPlaces {
   }
 };
 
-/// Places a row: its texels (the pairs in the next layer only where `places.crosses` says that they
-/// are wanted), and the parts of `places`.
+/// Places the pixels of those of a row's runs that are not parted. `bricks` are the box's, by slot.
+/// Up to kRoomPixels places behind each run are overwritten with places of nothing, before the next
+/// run is placed.
 template <typename Level>
-void place_row(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
-               PixelPlaces<Level>& places);
+void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
+                PixelPlaces<Level>& places);
 
 /// Trilinear. Radius 1 voxel, support 2, order 1 (continuous). Within ±1 level of exact arithmetic,
 /// and exactly the voxel's own colour at a voxel's centre. With 8 bits the arithmetic is of 16-bit

@@ -9,69 +9,43 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <span>
 
+#include "reconstruct/section/brick_runs.hpp"
 #include "reconstruct/section/texel_blocks.hpp"
 #include "reconstruct/section/texel_kernels.hpp"
 
 namespace biotomy::reconstruct::scalar {
 
-/// A pixel along one axis.
-struct AxisPlace {
-  std::array<int, 2> brick{};  ///< of its voxel, and of the next
-  std::array<int, 2> texel{};
-  float part = 0.0F;
-};
-
-inline AxisPlace axis_place(const RowAxis& axis, std::size_t pixel) {
-  constexpr std::int32_t kUnit = 1 << kFractionBits;
-  const std::int32_t position = axis.start + static_cast<std::int32_t>(pixel) * axis.step;
-  const int voxel = axis.base + (position >> kFractionBits);
-  const int inside = std::clamp(voxel, axis.first, axis.last);
-  const int next = std::min(inside + axis.next, axis.last);
-  const bool mixes = voxel == inside && voxel < axis.last;
-  return {{inside / axis.side, next / axis.side},
-          {inside % axis.side, next % axis.side},
-          mixes ? static_cast<float>(position & (kUnit - 1)) / static_cast<float>(kUnit) : 0.0F};
-}
-
-inline void find_bricks(const RowPath& path, std::size_t count, RowBricks& bricks) {
-  for (std::size_t i = 0; i < count; ++i) {
-    bricks.near[i] = 0;
-    bricks.far[i] = 0;
-    for (const RowAxis& axis : path.axes) {
-      const AxisPlace place = axis_place(axis, i);
-      bricks.near[i] += place.brick[0] * axis.slot_stride;
-      bricks.far[i] += place.brick[1] * axis.slot_stride;
-    }
-  }
-}
-
 template <typename Level>
-void place_row(const RowPath& path, std::size_t count, RowTexels<Level>& texels,
-               PixelPlaces<Level>& places) {
+void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
+                PixelPlaces<Level>& places) {
   constexpr int kSide = TexelBlocks::kSide;
   constexpr int kTexel = TexelBlocks::kColours * static_cast<int>(sizeof(Level));
   constexpr int kBlock = 64 * static_cast<int>(sizeof(Level));
-  const auto& [along_x, along_y, along_z] = path.axes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const AxisPlace x = axis_place(along_x, i);
-    const AxisPlace y = axis_place(along_y, i);
-    const AxisPlace z = axis_place(along_z, i);
-    for (std::size_t pair = 0; pair < 4; ++pair) {
-      const std::size_t row = pair % 2;
-      const std::size_t layer = pair / 2;
-      texels.slots[pair][i] = x.brick[0] * along_x.slot_stride +
-                              y.brick[row] * along_y.slot_stride +
-                              z.brick[layer] * along_z.slot_stride;
-      texels.offsets[pair][i] = x.texel[0] / kSide * kBlock + x.texel[0] % kSide * kTexel +
-                                y.texel[row] / kSide * path.block_row_bytes +
-                                y.texel[row] % kSide * (kSide + 1) * kTexel +
-                                z.texel[layer] * path.layer_bytes;
+  for (const BrickRun& run : runs) {
+    const auto& [x_bricks, y_bricks, z_bricks] = run.bricks;
+    for (int i = run.first; i < run.last && !run.parted; ++i) {
+      const TexelPair x = texel_pair(path.axes[0], x_bricks, i);
+      const TexelPair y = texel_pair(path.axes[1], y_bricks, i);
+      const TexelPair z = texel_pair(path.axes[2], z_bricks, i);
+      const auto place = [&](int y_brick, int row, int z_brick, int layer) {
+        return bricks[path.slot(x_bricks.near, y_brick, z_brick)] +
+               (x.near / kSide * kBlock + x.near % kSide * kTexel +
+                row / kSide * path.block_row_bytes + row % kSide * (kSide + 1) * kTexel +
+                layer * path.layer_bytes);
+      };
+      const auto pixel = static_cast<std::size_t>(i);
+      places.upper[0][pixel] = place(y_bricks.near, y.near, z_bricks.near, z.near);
+      places.upper[1][pixel] = place(y_bricks.far, y.far, z_bricks.near, z.near);
+      if (places.crosses) {
+        places.lower[0][pixel] = place(y_bricks.near, y.near, z_bricks.far, z.far);
+        places.lower[1][pixel] = place(y_bricks.far, y.far, z_bricks.far, z.far);
+      }
+      places.x[pixel] = PixelPlaces<Level>::part(x.part);
+      places.y[pixel] = PixelPlaces<Level>::part(y.part);
+      places.z[pixel] = PixelPlaces<Level>::part(z.part);
     }
-    texels.parted[i] = x.brick[1] - x.brick[0];
-    places.x[i] = PixelPlaces<Level>::part(x.part);
-    places.y[i] = PixelPlaces<Level>::part(y.part);
-    places.z[i] = PixelPlaces<Level>::part(z.part);
   }
 }
 

@@ -65,25 +65,20 @@ TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, con
     row.inside.first = std::clamp(row.inside.first, tile.columns.first, tile.columns.last);
     row.inside.last = std::clamp(row.inside.last, row.inside.first, tile.columns.last);
   }
-  set_box();
-  const std::size_t width =
-      static_cast<std::size_t>(tile.columns.last - tile.columns.first) + kRoomPixels;
-  row_bricks_.near.resize(width);
-  row_bricks_.far.resize(width);
+  set_box(kind);
+  RunFinder finder;
   for (const PictureRow& row : rows_) {
-    if (row.inside.first == row.inside.last) {
-      continue;
-    }
     if (kind == Interpolation::linear) {
-      need_linear(row);
-    } else {
+      need_linear(row, finder);
+    } else if (row.inside.first < row.inside.last) {
       need_supports(row);
     }
   }
+  first_run_.push_back(runs_.size());
 }
 
 // The bricks around the tile's pixels and their support.
-void TilePlan::set_box() {
+void TilePlan::set_box(Interpolation kind) {
   std::array<int, 3> low = last_;
   std::array<int, 3> high{};
   for (const PictureRow& row : rows_) {
@@ -106,14 +101,16 @@ void TilePlan::set_box() {
     high[axis] += margin;
     first_brick_[axis] = std::max(low[axis], 0) / shape_[axis];
     brick_count_[axis] = std::min(high[axis], last_[axis]) / shape_[axis] - first_brick_[axis] + 1;
-    places_[axis] = VoxelPlaces(blocks_, axis, low[axis], high[axis], last_[axis] + 1, shape_[axis],
-                                first_brick_[axis], slots);
+    if (kind != Interpolation::linear) {
+      places_[axis] = VoxelPlaces(blocks_, axis, low[axis], high[axis], last_[axis] + 1,
+                                  shape_[axis], first_brick_[axis], slots);
+    }
     slots *= brick_count_[axis];
   }
   bricks_at_.assign(static_cast<std::size_t>(slots), -1);
 }
 
-RowPath TilePlan::path(const PictureRow& row) const {
+RowPath TilePlan::path_of(const PictureRow& row) const {
   RowPath path;
   path.block_row_bytes = blocks_.block_row_bytes();
   path.layer_bytes = blocks_.layer_bytes();
@@ -137,17 +134,13 @@ RowPath TilePlan::path(const PictureRow& row) const {
   return path;
 }
 
-/// The bricks of the box whose corners are these two slots.
-void TilePlan::need_between(int near, int far) {
-  if (near == far && bricks_at_[static_cast<std::size_t>(near)] >= 0) {
-    return;
-  }
-  const int row = brick_count_[0];
-  const int layer = brick_count_[0] * brick_count_[1];
-  for (int z = near / layer; z <= far / layer; ++z) {
-    for (int y = near % layer / row; y <= far % layer / row; ++y) {
-      for (int x = near % row; x <= far % row; ++x) {
-        std::int32_t& place = bricks_at_[static_cast<std::size_t>(z * layer + y * row + x)];
+void TilePlan::need(const std::array<BrickPair, 3>& bricks) {
+  const auto& [along_x, along_y, along_z] = bricks;
+  for (int z = along_z.near; z <= along_z.far; ++z) {
+    for (int y = along_y.near; y <= along_y.far; ++y) {
+      for (int x = along_x.near; x <= along_x.far; ++x) {
+        std::int32_t& place =
+            bricks_at_[static_cast<std::size_t>((z * brick_count_[1] + y) * brick_count_[0] + x)];
         if (place < 0) {
           place = static_cast<std::int32_t>(bricks_.size());
           bricks_.push_back({first_brick_[2] + z, first_brick_[1] + y, first_brick_[0] + x});
@@ -157,39 +150,39 @@ void TilePlan::need_between(int near, int far) {
   }
 }
 
-void TilePlan::need_linear(const PictureRow& row) {
-  const auto count = static_cast<std::size_t>(row.inside.last - row.inside.first);
-  find_bricks(path(row), count, row_bricks_);
-  int near = -1;
-  int far = -1;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (row_bricks_.near[i] != near || row_bricks_.far[i] != far) {
-      near = row_bricks_.near[i];
-      far = row_bricks_.far[i];
-      need_between(near, far);
-    }
+void TilePlan::need_linear(const PictureRow& row, RunFinder& finder) {
+  first_run_.push_back(runs_.size());
+  if (row.inside.first == row.inside.last) {
+    paths_.emplace_back();
+    return;
+  }
+  paths_.push_back(path_of(row));
+  finder.find(paths_.back(), row.inside.last - row.inside.first, runs_);
+  for (std::size_t i = first_run_.back(); i < runs_.size(); ++i) {
+    need(runs_[i].bricks);
   }
 }
 
 void TilePlan::need_supports(const PictureRow& row) {
-  int near = -1;
-  int far = -1;
+  std::array<BrickPair, 3> before{{{-1, -1}, {-1, -1}, {-1, -1}}};
   for (int column = row.inside.first; column < row.inside.last; ++column) {
     const PixelSupport support = support_at(row, column);
-    int first = 0;
-    int last = 0;
+    std::array<BrickPair, 3> bricks;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int middle = support.first[axis] + support_.below;
       const bool mixes = !row.on_centres[axis];
-      first += places_[axis].of(mixes ? support.first[axis] : middle).slot;
-      last += places_[axis].of(mixes ? middle + support_.above : middle).slot;
+      bricks[axis] = {brick_of(axis, mixes ? support.first[axis] : middle),
+                      brick_of(axis, mixes ? middle + support_.above : middle)};
     }
-    if (first != near || last != far) {
-      near = first;
-      far = last;
-      need_between(near, far);
+    if (bricks != before) {
+      need(bricks);
+      before = bricks;
     }
   }
+}
+
+int TilePlan::brick_of(std::size_t axis, int voxel) const {
+  return std::clamp(voxel, 0, last_[axis]) / shape_[axis] - first_brick_[axis];
 }
 
 PixelSupport TilePlan::support_at(const PictureRow& row, int column) const {

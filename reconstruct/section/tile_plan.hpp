@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "reconstruct/section/brick_runs.hpp"
 #include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
@@ -69,11 +70,14 @@ class TilePlan {
   /// where it is not needed.
   const std::vector<std::int32_t>& bricks_at() const { return bricks_at_; }
 
-  /// A row's way through the box, for the linear kernels.
-  RowPath path(const PictureRow& row) const;
+  /// For linear: the way of row `i` of rows() through the box, and its runs.
+  const RowPath& path(std::size_t i) const { return paths_[i]; }
+  std::span<const BrickRun> runs(std::size_t i) const {
+    return std::span(runs_).subspan(first_run_[i], first_run_[i + 1] - first_run_[i]);
+  }
 
-  /// One pixel's support, and where its voxels lie: x, y, z. The sum of the slots of a voxel's
-  /// three places is its brick's slot, the sum of the offsets its place there.
+  /// For nearest and cubic: one pixel's support, and where its voxels lie: x, y, z. The sum of the
+  /// slots of a voxel's three places is its brick's slot, the sum of the offsets its place there.
   PixelSupport support_at(const PictureRow& row, int column) const;
   const std::array<VoxelPlaces, 3>& places() const { return places_; }
 
@@ -81,10 +85,12 @@ class TilePlan {
   int side_x() const { return shape_[0]; }  ///< of a brick
 
  private:
-  void set_box();
-  void need_linear(const PictureRow& row);
+  void set_box(Interpolation kind);
+  RowPath path_of(const PictureRow& row) const;
+  void need_linear(const PictureRow& row, RunFinder& finder);
   void need_supports(const PictureRow& row);
-  void need_between(int near, int far);
+  void need(const std::array<BrickPair, 3>& bricks);
+  int brick_of(std::size_t axis, int voxel) const;  // beyond the border: the border's
 
   Tile tile_;
   Support support_;
@@ -97,7 +103,9 @@ class TilePlan {
   std::vector<std::int32_t> bricks_at_;
   std::vector<ChunkIndex> bricks_;
   std::vector<PictureRow> rows_;
-  RowBricks row_bricks_;  // working memory
+  std::vector<RowPath> paths_;
+  std::vector<BrickRun> runs_;          // of all rows
+  std::vector<std::size_t> first_run_;  // of a row; behind the last row's: how many there are
 };
 
 }  // namespace biotomy::reconstruct

@@ -11,33 +11,38 @@ constexpr std::size_t kPixelLevels = 4;
 constexpr std::size_t kVectorBytes = 64;
 constexpr std::size_t kPixelsOfALine = 2;  // at least: a line of memory holds 4 × 4 texels
 
-template <typename Level>
-void paint(Level* rgb, int count, const std::array<Level, 3>& colour) {
-  for (int i = 0; i < count; ++i, rgb += 3) {
-    std::copy(colour.begin(), colour.end(), rgb);
-  }
-}
-
 std::size_t inside_count(const PictureRow& row) {
   return static_cast<std::size_t>(row.inside.last - row.inside.first);
 }
 
-/// Whether the voxels after the pixels' along z are in the same brick as theirs all along the row.
-bool stays_in_a_layer_of_bricks(const RowAxis& z) {
-  if (z.step != 0) {
-    return false;
+/// The lines of memory that pixels lie in are asked for, so that they are there when it is the
+/// pixels' turn: a section has no pattern that the processor could foresee. (A template, because
+/// GCC takes a function that does nothing else for one without an effect.)
+template <typename Level>
+[[gnu::always_inline]] inline void prefetch(const PixelPlaces<Level>& pairs, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += kPixelsOfALine) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      const std::byte* upper = pairs.upper[j][i];
+      __builtin_prefetch(upper);
+      __builtin_prefetch(pairs.crosses ? pairs.lower[j][i] : upper + pairs.down);
+    }
   }
-  const int voxel = z.base + (z.start >> kFractionBits);
-  return voxel >= z.first && voxel < z.last && voxel % z.side + z.next < z.side;
 }
 
 }  // namespace
 
+template <typename Level>
+TileSampler<Level>::TileSampler(Interpolation kind, const std::array<Level, 3>& background)
+    : kind_(kind) {
+  for (int i = 0; i < kMostPixels; ++i) {
+    background_.insert(background_.end(), background.begin(), background.end());
+  }
+}
+
 // While a row is sampled the memory of the next is on its way.
 template <typename Level>
 void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* const> bricks,
-                              const std::array<Level, 3>& background, int first_row,
-                              cv::Mat& picture) {
+                              int first_row, cv::Mat& picture) {
   const std::size_t brick_bytes = plan.blocks().brick_bytes() + TexelBlocks::slack();
   if (fill_value_.size() < brick_bytes &&
       std::find(bricks.begin(), bricks.end(), nullptr) != bricks.end()) {
@@ -56,7 +61,7 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
   const std::vector<PictureRow>& rows = plan.rows();
   for (std::size_t i = 0; i <= rows.size(); ++i) {
     if (i < rows.size()) {
-      place_row(plan, rows[i], places_[i % 2]);
+      place_row(plan, i, places_[i % 2]);
     }
     if (i == 0) {
       continue;
@@ -64,10 +69,15 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
     const PictureRow& row = rows[i - 1];
     sample_row(plan, row, places_[(i - 1) % 2]);
     auto* out = picture.ptr<Level>(row.row - first_row);
-    paint(out + 3 * std::ptrdiff_t{columns.first}, row.inside.first - columns.first, background);
+    paint(out + 3 * std::ptrdiff_t{columns.first}, row.inside.first - columns.first);
     pack_pixels(row_.data(), inside_count(row), out + 3 * std::ptrdiff_t{row.inside.first});
-    paint(out + 3 * std::ptrdiff_t{row.inside.last}, columns.last - row.inside.last, background);
+    paint(out + 3 * std::ptrdiff_t{row.inside.last}, columns.last - row.inside.last);
   }
+}
+
+template <typename Level>
+void TileSampler<Level>::paint(Level* rgb, int count) const {
+  std::copy_n(background_.begin(), 3 * count, rgb);
 }
 
 template <typename Level>
@@ -76,22 +86,17 @@ void TileSampler<Level>::resize(std::size_t width) {
   for (RowPlaces& places : places_) {
     places.pairs.resize(width);
   }
-  for (std::size_t pair = 0; pair < row_texels_.slots.size(); ++pair) {
-    row_texels_.slots[pair].resize(width + kRoomPixels);
-    row_texels_.offsets[pair].resize(width + kRoomPixels);
-  }
-  row_texels_.parted.resize(width + kRoomPixels);
 }
 
 template <typename Level>
-void TileSampler<Level>::place_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places) {
+void TileSampler<Level>::place_row(const TilePlan& plan, std::size_t number, RowPlaces& places) {
+  const PictureRow& row = plan.rows()[number];
   places.gathered.clear();
   if (inside_count(row) == 0) {
     return;
   }
   if (kind_ == Interpolation::linear) {
-    place_pairs(plan, row, places);
-    place_parted(plan, inside_count(row), places);
+    place_runs(plan, number, places);
     return;
   }
   for (std::size_t i = 0; i < inside_count(row); ++i) {
@@ -105,62 +110,68 @@ void TileSampler<Level>::place_row(const TilePlan& plan, const PictureRow& row, 
 }
 
 template <typename Level>
-void TileSampler<Level>::place_pairs(const TilePlan& plan, const PictureRow& row,
-                                     RowPlaces& places) {
-  const std::size_t count = inside_count(row);
-  const RowPath path = plan.path(row);
+void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
+                                    RowPlaces& places) const {
+  const RowPath& path = plan.path(number);
+  const std::span<const BrickRun> runs = plan.runs(number);
+  places.texels.clear();
+  places.between.clear();
   PixelPlaces<Level>& pairs = places.pairs;
-  pairs.crosses = !stays_in_a_layer_of_bricks(path.axes[2]);
+  pairs.crosses =
+      path.axes[2].step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
   pairs.down = path.axes[2].next * std::ptrdiff_t{path.layer_bytes};
-  reconstruct::place_row(path, count, row_texels_, pairs);
-  const auto texel = [&](std::size_t pair, std::size_t i) {
-    return bricks_[static_cast<std::size_t>(row_texels_.slots[pair][i])] +
-           row_texels_.offsets[pair][i];
-  };
-  for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
-    const std::size_t pixel = std::min(i, count - 1);  // behind the last: again
-    pairs.upper[0][i] = texel(0, pixel);
-    pairs.upper[1][i] = texel(1, pixel);
-  }
-  if (pairs.crosses) {
-    for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
-      const std::size_t pixel = std::min(i, count - 1);
-      pairs.lower[0][i] = texel(2, pixel);
-      pairs.lower[1][i] = texel(3, pixel);
+  reconstruct::place_runs(path, runs, bricks_.data(), pairs);
+  for (const BrickRun& run : runs) {
+    if (run.parted) {
+      place_parted(plan, path, run, places);
     }
   }
-  // The lines of memory that the pixels lie in are asked for now, so that they are there when it is
-  // the row's turn: a section has no pattern that the processor could foresee. (Not in a function
-  // of its own, which GCC would take for one without an effect.)
-  for (std::size_t i = 0; i < count; i += kPixelsOfALine) {
-    for (std::size_t j = 0; j < 2; ++j) {
-      const std::byte* upper = pairs.upper[j][i];
-      __builtin_prefetch(upper);
-      __builtin_prefetch(pairs.crosses ? pairs.lower[j][i] : upper + pairs.down);
+  const auto count = static_cast<std::size_t>(runs.back().last);
+  prefetch(pairs, count);
+  // The kernels' vectors reach behind the last pixel: there stand places of texels.
+  for (auto* texels : {&pairs.upper, &pairs.lower}) {
+    for (auto& row : *texels) {
+      std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(count), kRoomPixels, row[count - 1]);
     }
   }
 }
 
-/// The texels of pixels whose left texel is the last of a brick's row and whose right one the first
-/// of the next brick's, x fastest, then y, then z.
+/// The texels of a run's pixels, x fastest, then y, then z. That they are parted does not show in
+/// the row's pairs, where they have places of other texels, to be mixed and overwritten.
 template <typename Level>
-void TileSampler<Level>::place_parted(const TilePlan& plan, std::size_t count,
-                                      RowPlaces& places) const {
-  places.texels.clear();
-  const std::ptrdiff_t row_of_brick = plan.blocks().along_x(plan.side_x() - 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (row_texels_.parted[i] == 0) {
-      continue;
+void TileSampler<Level>::place_parted(const TilePlan& plan, const RowPath& path,
+                                      const BrickRun& run, RowPlaces& places) const {
+  const auto& [x, y, z] = run.bricks;
+  std::array<const std::byte*, 8> bricks{};
+  for (std::size_t corner = 0; corner < bricks.size(); ++corner) {
+    bricks[corner] = bricks_[static_cast<std::size_t>(
+        path.slot(corner % 2 == 0 ? x.near : x.far, corner / 2 % 2 == 0 ? y.near : y.far,
+                  corner / 4 == 0 ? z.near : z.far))];
+  }
+  const TexelBlocks& blocks = plan.blocks();
+  const std::size_t first = places.gathered.size();
+  const std::size_t count = first + static_cast<std::size_t>(run.last - run.first);
+  places.gathered.resize(count);
+  places.between.resize(count);
+  places.texels.resize(count * bricks.size());
+  const std::byte** texels = places.texels.data() + first * bricks.size();
+  for (std::size_t i = first; i < count; ++i) {
+    const int pixel = run.first + static_cast<int>(i - first);
+    const TexelPair along_x = texel_pair(path.axes[0], x, pixel);
+    const TexelPair along_y = texel_pair(path.axes[1], y, pixel);
+    const TexelPair along_z = texel_pair(path.axes[2], z, pixel);
+    const std::array<int, 2> columns{blocks.along_x(along_x.near), blocks.along_x(along_x.far)};
+    const std::array<int, 2> rows{blocks.along_y(along_y.near), blocks.along_y(along_y.far)};
+    const std::array<int, 2> layers{blocks.along_z(along_z.near), blocks.along_z(along_z.far)};
+    for (std::size_t corner = 0; corner < bricks.size(); ++corner) {
+      *texels = bricks[corner] + (columns[corner % 2] + rows[corner / 2 % 2] + layers[corner / 4]);
+      __builtin_prefetch(*texels++);
     }
-    places.gathered.push_back(i);
-    for (std::size_t pair = 0; pair < 4; ++pair) {
-      const bool below = pair >= 2 && !places.pairs.crosses;
-      const auto slot = static_cast<std::size_t>(row_texels_.slots[below ? pair - 2 : pair][i]);
-      const std::ptrdiff_t offset =
-          row_texels_.offsets[below ? pair - 2 : pair][i] + (below ? places.pairs.down : 0);
-      places.texels.push_back(bricks_[slot] + offset);
-      places.texels.push_back(bricks_[slot + 1] + (offset - row_of_brick));
-      __builtin_prefetch(places.texels.back());
+    places.between[i] = {along_x.part, along_y.part, along_z.part};
+    places.gathered[i] = static_cast<std::size_t>(pixel);
+    for (auto* pairs : {&places.pairs.upper, &places.pairs.lower}) {
+      (*pairs)[0][places.gathered[i]] = bricks.front();
+      (*pairs)[1][places.gathered[i]] = bricks.front();
     }
   }
 }
@@ -197,15 +208,14 @@ void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& 
 template <typename Level>
 void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
                                     const RowPlaces& places) {
-  if (inside_count(row) == 0) {
-    return;
-  }
   switch (kind_) {
     case Interpolation::nearest:
       take_nearest(places);
       break;
     case Interpolation::linear:
-      mix_linear(places.pairs, inside_count(row), row_.data());
+      if (places.gathered.size() < inside_count(row)) {
+        mix_linear(places.pairs, inside_count(row), row_.data());
+      }
       if (!places.gathered.empty()) {
         mix_parted(places);
       }
@@ -237,13 +247,13 @@ void TileSampler<Level>::mix_parted(const RowPlaces& places) {
   for (std::size_t i = 0; i < count; ++i) {
     std::byte* const support = parted_texels_.data() + i * kSupport;
     for (std::size_t corner = 0; corner < kTexels; ++corner) {
+      // One level more than a texel's: whole words, of which the next copy overwrites the end.
       std::memcpy(support + corner / 2 * kPair + corner % 2 * kTexel,
-                  places.texels[i * kTexels + corner], kTexel);
+                  places.texels[i * kTexels + corner], 4 * sizeof(Level));
     }
-    const std::size_t pixel = places.gathered[i];
-    parted_places_.x[i] = places.pairs.x[pixel];
-    parted_places_.y[i] = places.pairs.y[pixel];
-    parted_places_.z[i] = places.pairs.z[pixel];
+    parted_places_.x[i] = PixelPlaces<Level>::part(places.between[i][0]);
+    parted_places_.y[i] = PixelPlaces<Level>::part(places.between[i][1]);
+    parted_places_.z[i] = PixelPlaces<Level>::part(places.between[i][2]);
   }
   mix_linear(parted_places_, count, parted_pixels_.data());
   for (std::size_t i = 0; i < count; ++i) {

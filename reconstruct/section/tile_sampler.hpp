@@ -18,27 +18,31 @@ namespace biotomy::reconstruct {
 template <typename Level>
 class TileSampler {
  public:
-  explicit TileSampler(Interpolation kind) : kind_(kind) {}
+  /// `background` is the colour of pixels outside the cuboid.
+  TileSampler(Interpolation kind, const std::array<Level, 3>& background);
 
   /// `bricks` are those of plan.bricks(), in their order; null ones are fill value. Writes R G B of
   /// the tile's pixels to `picture` (CV_8UC3 or CV_16UC3), of which row 0 is row `first_row` of the
   /// grid.
-  void fill(const TilePlan& plan, std::span<const std::byte* const> bricks,
-            const std::array<Level, 3>& background, int first_row, cv::Mat& picture);
+  void fill(const TilePlan& plan, std::span<const std::byte* const> bricks, int first_row,
+            cv::Mat& picture);
 
  private:
-  /// Where a row's pixels lie. Those whose texels are gathered one by one (linear: whose pair of
-  /// texels is parted between two bricks; others: all) are told by their number in the row.
+  /// Where a row's pixels lie. Those whose texels are gathered one by one (linear: of the runs that
+  /// are parted; others: all) are told by their number in the row.
   struct RowPlaces {
     PixelPlaces<Level> pairs;
     std::vector<std::size_t> gathered;
-    std::vector<const std::byte*> texels;  // of the gathered ones' supports
+    std::vector<const std::byte*> texels;       // of the gathered ones' supports
+    std::vector<std::array<float, 3>> between;  // linear: where the gathered ones lie among them
   };
 
+  void paint(Level* rgb, int count) const;
   void resize(std::size_t width);
-  void place_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places);
-  void place_pairs(const TilePlan& plan, const PictureRow& row, RowPlaces& places);
-  void place_parted(const TilePlan& plan, std::size_t count, RowPlaces& places) const;
+  void place_row(const TilePlan& plan, std::size_t number, RowPlaces& places);
+  void place_runs(const TilePlan& plan, std::size_t number, RowPlaces& places) const;
+  void place_parted(const TilePlan& plan, const RowPath& path, const BrickRun& run,
+                    RowPlaces& places) const;
   template <int width>
   void place_supports(const TilePlan& plan, const PictureRow& row, RowPlaces& places) const;
   void sample_row(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
@@ -47,11 +51,11 @@ class TileSampler {
   void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
 
   Interpolation kind_;
+  std::vector<Level> background_;         // pixels of it
   std::vector<const std::byte*> bricks_;  // by slot of the tile's box
   std::vector<std::byte> fill_value_;
   std::array<RowPlaces, 2> places_;  // of a row, and of the next
-  RowTexels<Level> row_texels_;
-  std::vector<Level> row_;  // pixels of the tile's columns
+  std::vector<Level> row_;           // pixels of the tile's columns
   PixelPlaces<Level> parted_places_;
   std::vector<std::byte> parted_texels_;
   std::vector<Level> parted_pixels_;

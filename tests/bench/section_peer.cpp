@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
           evict();
         }
         const auto start = std::chrono::steady_clock::now();
-        image = sample_grid(source, grid, interpolation(kind), {0, 0, 0}).image;
+        sample_grid(source, grid, interpolation(kind), {0, 0, 0}, image);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         if (run >= 0) {
           seconds.push_back(taken.count());

@@ -15,8 +15,10 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include "reconstruct/section/brick_runs.hpp"
 #include "reconstruct/section/texel_blocks.hpp"
 #include "reconstruct/section/texel_kernels_scalar.hpp"
+#include "tests/reconstruct/section/random_path.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -79,82 +81,38 @@ struct NoisyBrick {
 };
 
 constexpr std::array<int, 3> kShape{6, 11, 13};
-constexpr std::int32_t kVoxel = 1 << kFractionBits;
-
-/// A row somewhere in a box of bricks, or partly beside it; steps may be 0 or go back.
-RowPath random_path(int count, bool powers_of_two, std::mt19937& random) {
-  RowPath path;
-  path.block_row_bytes = 64 * (1 + static_cast<int>(random() % 9));
-  path.layer_bytes = path.block_row_bytes * (1 + static_cast<int>(random() % 9));
-  int slot_stride = 1;
-  for (RowAxis& axis : path.axes) {
-    axis.side = powers_of_two ? 1 << random() % 6 : 1 + static_cast<int>(random() % 40);
-    axis.first = -static_cast<int>(random() % 3) * axis.side;
-    axis.last = axis.first + static_cast<int>(random() % 300);
-    axis.first = std::max(axis.first, 0);
-    axis.last = std::max(axis.last, axis.first);
-    axis.base = static_cast<int>(random() % 300) - 5;
-    axis.start = static_cast<std::int32_t>(random() % kMostVoxels) * kVoxel +
-                 static_cast<std::int32_t>(random() % kVoxel);
-    const auto to = static_cast<std::int32_t>(random() % (std::uint32_t{kMostVoxels} * kVoxel));
-    axis.step = random() % 4 == 0 ? 0 : (to - axis.start) / std::max(count, 1);
-    axis.slot_stride = slot_stride;
-    axis.next = random() % 4 == 0 ? 0 : 1;
-    slot_stride *= axis.last / axis.side + 1;
-  }
-  return path;
-}
-
-TEST(RowKernels, FindBricksAsTheScalarOnesDo) {
-  for_each_vector_width([] {
-    std::mt19937 random(1);
-    for (int count = 1; count <= kMostPixels; ++count) {
-      const RowPath path = random_path(count, count % 2 == 0, random);
-      const auto pixels = static_cast<std::size_t>(count);
-      RowBricks got{std::vector<std::int32_t>(pixels + kRoomPixels),
-                    std::vector<std::int32_t>(pixels + kRoomPixels)};
-      RowBricks wanted = got;
-      find_bricks(path, pixels, got);
-      scalar::find_bricks(path, pixels, wanted);
-      for (std::size_t i = 0; i < pixels; ++i) {
-        ASSERT_EQ(got.near[i], wanted.near[i]) << i << " of " << count;
-        ASSERT_EQ(got.far[i], wanted.far[i]) << i << " of " << count;
-      }
-    }
-  });
-}
-
-// The room behind the last pixel belongs to the kernels and holds places of texels.
-TYPED_TEST(TexelKernels, PlaceRowsAsTheScalarOnesDo) {
+// The room behind the last pixel belongs to the kernels.
+TYPED_TEST(TexelKernels, PlaceRunsAsTheScalarOnesDo) {
   using Level = TypeParam;
   for_each_vector_width([] {
     std::mt19937 random(2);
     for (int count = 1; count <= kMostPixels; ++count) {
-      const RowPath path = random_path(count, count % 2 == 0, random);
-      const auto pixels = static_cast<std::size_t>(count);
-      for (const bool crosses : {false, true}) {
-        RowTexels<Level> got;
-        for (std::size_t pair = 0; pair < 4; ++pair) {
-          got.slots[pair].resize(pixels + kRoomPixels);
-          got.offsets[pair].resize(pixels + kRoomPixels);
-        }
-        got.parted.resize(pixels + kRoomPixels);
-        RowTexels<Level> wanted = got;
-        PixelPlaces<Level> places;
-        places.resize(pixels);
-        places.crosses = crosses;
-        PixelPlaces<Level> wanted_places = places;
-        place_row(path, pixels, got, places);
-        scalar::place_row(path, pixels, wanted, wanted_places);
-        for (std::size_t i = 0; i < pixels; ++i) {
-          for (std::size_t pair = 0; pair < (crosses ? 4U : 2U); ++pair) {
-            ASSERT_EQ(got.slots[pair][i], wanted.slots[pair][i]) << i << " of " << count;
-            ASSERT_EQ(got.offsets[pair][i], wanted.offsets[pair][i]) << i << " of " << count;
+      const RowPath path = tests::random_path(count, random);
+      std::vector<BrickRun> runs;
+      RunFinder().find(path, count, runs);
+      const auto& [x, y, z] = path.axes;
+      const ExactBytes memory(static_cast<std::size_t>(
+          path.slot(x.last / x.side, y.last / y.side, z.last / z.side) + 1));
+      std::vector<const std::byte*> bricks;  // only told apart
+      for (std::size_t slot = 0; slot < memory.size; ++slot) {
+        bricks.push_back(memory.bytes.get() + slot);
+      }
+      PixelPlaces<Level> got;
+      got.resize(static_cast<std::size_t>(count));
+      got.crosses = z.step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
+      PixelPlaces<Level> wanted = got;
+      place_runs(path, runs, bricks.data(), got);
+      scalar::place_runs(path, runs, bricks.data(), wanted);
+      for (const BrickRun& run : runs) {
+        for (int i = run.first; i < run.last && !run.parted; ++i) {
+          const auto pixel = static_cast<std::size_t>(i);
+          for (std::size_t row = 0; row < 2; ++row) {
+            ASSERT_EQ(got.upper[row][pixel], wanted.upper[row][pixel]) << i << " of " << count;
+            ASSERT_EQ(got.lower[row][pixel], wanted.lower[row][pixel]) << i << " of " << count;
           }
-          ASSERT_EQ(got.parted[i], wanted.parted[i]);
-          ASSERT_EQ(places.x[i], wanted_places.x[i]);
-          ASSERT_EQ(places.y[i], wanted_places.y[i]);
-          ASSERT_EQ(places.z[i], wanted_places.z[i]);
+          ASSERT_EQ(got.x[pixel], wanted.x[pixel]);
+          ASSERT_EQ(got.y[pixel], wanted.y[pixel]);
+          ASSERT_EQ(got.z[pixel], wanted.z[pixel]);
         }
       }
     }
