@@ -79,7 +79,6 @@ int main(int argc, char** argv) {
     }
   }
   benchmark::RegisterBenchmark("crc32c", checksum, crc32c);
-  benchmark::RegisterBenchmark("crc32c_by_tables", checksum, crc32c_by_tables);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;

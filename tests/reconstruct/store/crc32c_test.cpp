@@ -15,7 +15,6 @@ using ReferenceCrc = boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, 
 TEST(Crc32c, GivesThePublishedCheckValue) {
   const std::string digits = "123456789";
   EXPECT_EQ(crc32c(std::as_bytes(std::span(digits))), 0xE3069283U);
-  EXPECT_EQ(crc32c_by_tables(std::as_bytes(std::span(digits))), 0xE3069283U);
 }
 
 TEST(Crc32c, GivesWhatRfc3720SaysOf32Zeros) {
@@ -25,7 +24,7 @@ TEST(Crc32c, GivesWhatRfc3720SaysOf32Zeros) {
 
 TEST(Crc32c, AgreesWithBoostAtEveryLengthAndAlignment) {
   std::mt19937 random(7);
-  std::vector<std::byte> bytes(100);
+  std::vector<std::byte> bytes(600);
   for (std::byte& byte : bytes) {
     byte = static_cast<std::byte>(random());
   }
@@ -35,7 +34,6 @@ TEST(Crc32c, AgreesWithBoostAtEveryLengthAndAlignment) {
       ReferenceCrc reference;
       reference.process_bytes(part.data(), part.size());
       ASSERT_EQ(crc32c(part), reference.checksum()) << start << ' ' << length;
-      ASSERT_EQ(crc32c_by_tables(part), reference.checksum()) << start << ' ' << length;
     }
   }
 }
