@@ -83,7 +83,7 @@ std::filesystem::path sidecar_of(std::filesystem::path picture) {
 /// One section needs the chunks of two strips of its rows at a time. Memory for more would only be
 /// filled once, and filling fresh memory takes as long as decoding.
 std::size_t enough_for_one(const OpenedSample& sample, const reconstruct::SectionRequest& request) {
-  constexpr std::size_t kLeastBytes = 64'000'000;
+  constexpr std::size_t kLeastBytes = 32'000'000;
   constexpr std::size_t kBytesForAColumn = 25'000;  // of 8 bits; ample at scale: run_scale
   const Volume& volume = sample.volume;
   const auto columns = static_cast<std::size_t>(

@@ -8,6 +8,7 @@
 namespace biotomy::reconstruct {
 namespace {
 
+constexpr double kLeastPart = 0.125;
 constexpr double kSameSize = 1e-6;  // relative: a pixel that is meant to be a voxel is one
 
 /// Along an axis of one voxel the pyramid does not go on and colours do not change: it does not
@@ -39,8 +40,12 @@ LevelChoice level_choice(const BrickSource& source, double pixel, Interpolation 
   }
   const double part =
       std::log(pixel / at_finer) / std::log(finest_spacing(source.level(finer + 1)) / at_finer);
-  if (kind == Interpolation::nearest) {
-    return {part < 0.5 ? finer : finer + 1, 0.0};
+  const double least = kind == Interpolation::nearest ? 0.5 : kLeastPart;
+  if (part < least) {
+    return {finer, 0.0};
+  }
+  if (part >= 1.0 - least) {
+    return {finer + 1, 0.0};
   }
   return {finer, part};
 }

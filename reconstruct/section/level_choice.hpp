@@ -18,7 +18,9 @@ struct LevelChoice {
 /// from level 0. A larger one would leave voxels out, so that fine structure turns into moiré; it
 /// is taken from the levels whose finest spacing is next below and next above it, mixed by the
 /// logarithm of the size between them, which is the filter between levels of a mipmap (Williams
-/// 1983). `nearest` takes the one that is nearer. Axes of one voxel do not count.
+/// 1983). A level whose part would be below an eighth is left out: it would cost as much reading as
+/// the other, or several times as much, and hardly be seen. `nearest` takes the one that is nearer.
+/// Axes of one voxel do not count.
 LevelChoice level_choice(const BrickSource& source, double pixel, Interpolation kind);
 
 }  // namespace biotomy::reconstruct

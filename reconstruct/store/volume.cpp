@@ -26,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kIndexCacheBytes = std::size_t{64} << 20;
 constexpr std::uint64_t kLongestRun = std::uint64_t{1} << 20;  // bytes read and decoded by one task
+constexpr BlockCount kNoShard{-1, -1, -1};
 constexpr int kMostReplacements = 3;  // of one shard within one read: a writer is not that quick
 
 std::int64_t nanoseconds_since(Clock::time_point start) {
@@ -204,10 +205,15 @@ struct Volume::State {
     ++statistics.chunks_read;
   }
 
-  std::string shard_name(int level, ChunkIndex chunk) const {
+  /// How many shards lie before a chunk's along each axis.
+  BlockCount shard_of(ChunkIndex chunk) const {
     const BlockCount& per_shard = chunks_of_one_shard;
-    return level_path(level) + "/" +
-           shard_key(chunk.z / per_shard.z, chunk.y / per_shard.y, chunk.x / per_shard.x);
+    return {chunk.z / per_shard.z, chunk.y / per_shard.y, chunk.x / per_shard.x};
+  }
+
+  std::string shard_name(int level, ChunkIndex chunk) const {
+    const BlockCount shard = shard_of(chunk);
+    return level_path(level) + "/" + shard_key(shard.z, shard.y, shard.x);
   }
 
   /// Whether the chunk's shard has a part in the layers that are present, of a volume that stores
@@ -231,9 +237,15 @@ struct Volume::State {
                           OnFailure&& on_failure) {
     std::vector<Piece> pieces;
     pieces.reserve(chunks.size());
+    BlockCount known = kNoShard;  // whose index is at hand: neighbours mostly share one
+    std::shared_ptr<const IndexedShard> found;
     for (std::size_t which = 0; which < chunks.size(); ++which) {
       try {
-        const auto found = shard(level, chunks[which]);
+        if (const BlockCount place = shard_of(chunks[which]); place != known) {
+          known = kNoShard;
+          found = shard(level, chunks[which]);
+          known = place;
+        }
         const ChunkRange range = found ? found->index[place_in_shard(chunks[which])] : ChunkRange{};
         if (range.stored()) {
           pieces.push_back({found, range, which});
@@ -394,10 +406,12 @@ void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const On
 void Volume::expect_chunks(int level, std::span<const ChunkIndex> soon) const {
   const auto ignore = [](std::size_t, const auto&...) {};  // the reading will say it
   std::vector<Piece> pieces = state_->find(level, soon, ignore, ignore);
-  for (const Run run : runs_of(pieces)) {
-    state_->objects->expect(run.front().shard->name, run.front().shard->version,
-                            run.front().range.offset, bytes_of(run));
-  }
+  const std::vector<Run> runs = runs_of(pieces);
+  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
+    const Piece& first = runs[i].front();
+    state_->objects->expect(first.shard->name, first.shard->version, first.range.offset,
+                            bytes_of(runs[i]));
+  });
 }
 
 }  // namespace biotomy::reconstruct

@@ -25,6 +25,7 @@ struct BlockCount {
   std::int64_t x = 0;
 
   std::int64_t total() const { return z * y * x; }
+  bool operator==(const BlockCount&) const = default;
 };
 BlockCount shards_of(const ZarrArray& array);
 BlockCount chunks_of_shard(const VolumeLayout& layout);

@@ -43,7 +43,15 @@ TEST(LevelChoice, BetweenTwoLevelsGoesWithTheLogarithm) {
   EXPECT_NEAR(linear(20.0 * std::sqrt(2.0)).part, 0.5, 1e-12);
   EXPECT_EQ(linear(13.0).finer, 0);
   EXPECT_NEAR(linear(13.0).part, std::log2(1.3), 1e-12);
-  EXPECT_NEAR(linear(39.9).part, std::log2(1.995), 1e-12);
+  EXPECT_NEAR(linear(36.5).part, std::log2(1.825), 1e-12);
+}
+
+TEST(LevelChoice, LeavesALevelOutWhosePartIsBelowAnEighth) {
+  EXPECT_EQ(linear(39.9), (LevelChoice{2, 0.0}));
+  EXPECT_EQ(linear(20.0 * std::exp2(0.876)), (LevelChoice{2, 0.0}));
+  EXPECT_NEAR(linear(20.0 * std::exp2(0.874)).part, 0.874, 1e-12);
+  EXPECT_NEAR(linear(20.0 * std::exp2(0.126)).part, 0.126, 1e-12);
+  EXPECT_EQ(linear(20.0 * std::exp2(0.124)), (LevelChoice{1, 0.0}));
 }
 
 TEST(LevelChoice, EndsWithTheCoarsestLevel) {
