@@ -1,8 +1,10 @@
 #include "reconstruct/section/sampler.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -12,6 +14,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "reconstruct/section/level_choice.hpp"
 #include "reconstruct/section/tile_plan.hpp"
@@ -67,17 +70,34 @@ std::array<Level, 3> levels_of(const Colour& colour) {
   return levels;
 }
 
+/// A level of the pyramid, and how much of it the picture takes: all of the finest one, into which
+/// so much of the next is mixed.
+struct LevelPart {
+  int level = 0;
+  double part = 1.0;
+};
+
+std::vector<LevelPart> level_parts(const LevelChoice& choice) {
+  std::vector<LevelPart> parts{{choice.finer, 1.0}};
+  if (choice.part > 0.0) {
+    parts.push_back({choice.finer + 1, choice.part});
+  }
+  return parts;
+}
+
 /// Some rows of the picture, and all that sampling them from one level needs.
 struct Strip {
-  int level = 0;
+  LevelPart from;
   int first_row = 0;
   int last_row = 0;
   std::vector<TilePlan> tiles;
-  std::vector<ChunkIndex> bricks;  ///< of all tiles, sorted, each once
+  std::vector<ChunkIndex> indices;  ///< of the bricks of all tiles, sorted, each once
+  std::vector<TexelBrick> bricks;   ///< those, once they are fetched
 };
 
-/// Samples one level after another, strip by strip. While a strip's bricks are decoded and sampled,
-/// those of the next have been announced, so that the disk is never waited for and never idle.
+/// Samples strip by strip, one level after the other. While a strip is sampled the next one's
+/// bricks are read and decoded, and those of the one after it are found and announced: so threads
+/// need not wait for each other, nor for the disk.
 template <typename Level>
 class PictureSampler {
  public:
@@ -87,128 +107,177 @@ class PictureSampler {
         grid_(grid),
         kind_(kind),
         on_rows_(on_rows),
+        levels_(level_parts(level_choice(source, grid.pixel, kind))),
         samplers_([kind, colour = levels_of<Level>(background)] {
           return TileSampler<Level>(kind, colour);
         }) {}
 
   SampleStatistics sample(cv::Mat& image) {
-    const auto start = Clock::now();
-    const LevelChoice levels = level_choice(source_, grid_.pixel, kind_);
     image.create(grid_.rows, grid_.columns, sizeof(Level) == 1 ? CV_8UC3 : CV_16UC3);
-    SampleStatistics statistics;
-    statistics.finest_level = levels.finer;
-    statistics.levels = levels.part > 0.0 ? 2 : 1;
-    rows_in_all_ = std::int64_t{grid_.rows} * statistics.levels;
-    sample_level(levels.finer, 0.0, image);
-    if (levels.part > 0.0) {
-      sample_level(levels.finer + 1, levels.part, image);
+    std::optional<Strip> strip = next_strip();
+    if (strip) {
+      fetch(*strip);
     }
+    std::optional<Strip> next = next_strip();
+    std::int64_t rows = 0;
+    while (strip) {
+      std::optional<Strip> after;
+      tbb::parallel_invoke([&] { fill(*strip, image); },
+                           [&] {
+                             if (next) {
+                               fetch(*next);
+                             }
+                           },
+                           [&] { after = next_strip(); });
+      rows += strip->last_row - strip->first_row;
+      if (on_rows_) {
+        on_rows_(rows, std::int64_t{grid_.rows} * std::ssize(levels_));
+      }
+      strip = std::exchange(next, std::move(after));
+    }
+    count_touched();
+    SampleStatistics statistics;
     statistics.chunks_touched = chunks_touched_;
-    statistics.sample_s = std::chrono::duration<double>(Clock::now() - start - fetching_).count();
+    statistics.finest_level = levels_.front().level;
+    statistics.levels = static_cast<int>(levels_.size());
+    statistics.sample_s = 1e-9 * static_cast<double>(sampling_ns_.load());
     return statistics;
   }
 
  private:
-  /// Fills the picture when `part` is 0, else mixes so much of the level into it.
-  void sample_level(int level, double part, cv::Mat& picture) {
-    const cv::Size tile = tile_size(source_, level, grid_);
-    rows_ = std::max(kStripRows / tile.height, 1) * tile.height;
-    std::optional<Strip> next = plan_strip(level, 0, tile);
-    while (next) {
-      const Strip strip = *std::exchange(next, std::nullopt);
-      if (strip.last_row < grid_.rows) {
-        next = plan_strip(level, strip.last_row, tile);
-        source_.expect(level, next->bricks);
+  /// Plans and announces the strip below the one that was planned last, or the first one of the
+  /// next level; none at the end.
+  std::optional<Strip> next_strip() {
+    if (next_row_ == grid_.rows) {
+      next_row_ = 0;
+      ++next_level_;
+    }
+    if (next_level_ == levels_.size() || grid_.rows == 0) {
+      return std::nullopt;
+    }
+    const LevelPart& from = levels_[next_level_];
+    const cv::Size tile = tile_size(source_, from.level, grid_);
+    if (next_row_ == 0) {
+      rows_ = std::max(kStripRows / tile.height, 1) * tile.height;
+    }
+    std::optional<Strip> strip;
+    for (;;) {
+      strip = plan_strip(from, tile);
+      if (fits(*strip) || rows_ <= kLeastStripRows) {
+        break;
       }
-      if (part == 0.0) {
-        sample_strip(strip, 0, picture);
-      } else {
-        cv::Mat coarse(strip.last_row - strip.first_row, picture.cols, picture.type());
-        sample_strip(strip, strip.first_row, coarse);
-        cv::Mat rows = picture.rowRange(strip.first_row, strip.last_row);
-        cv::addWeighted(rows, 1.0 - part, coarse, part, 0.0, rows);
-      }
-      rows_done_ += strip.last_row - strip.first_row;
-      if (on_rows_) {
-        on_rows_(rows_done_, rows_in_all_);
+      rows_ = std::max(rows_ / 2, kLeastStripRows);
+    }
+    next_row_ = strip->last_row;
+    source_.expect(from.level, strip->indices);
+    return strip;
+  }
+
+  /// Two strips' bricks are needed at a time.
+  bool fits(const Strip& strip) const {
+    return strip.indices.size() *
+               TexelBlocks(source_.brick_shape(), source_.bits()).brick_bytes() <=
+           source_.capacity_bytes() / 2;
+  }
+
+  Strip plan_strip(const LevelPart& from, const cv::Size& tile) {
+    Strip strip{from, next_row_, std::min(next_row_ + rows_, grid_.rows), {}, {}, {}};
+    std::vector<Tile> tiles;
+    for (int row = strip.first_row; row < strip.last_row; row += tile.height) {
+      for (int column = 0; column < grid_.columns; column += tile.width) {
+        tiles.push_back({{column, std::min(column + tile.width, grid_.columns)},
+                         row,
+                         std::min(row + tile.height, strip.last_row)});
       }
     }
+    std::vector<PictureRow> rows(static_cast<std::size_t>(strip.last_row - strip.first_row));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), kTileRows),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          rows[i] = PictureRow(source_, from.level, grid_,
+                                               strip.first_row + static_cast<int>(i));
+                        }
+                      });
+    std::vector<std::optional<TilePlan>> plans(tiles.size());
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+      const auto start = Clock::now();
+      const Tile& each = tiles[i];
+      plans[i].emplace(
+          source_, from.level, kind_, each,
+          std::span(rows).subspan(static_cast<std::size_t>(each.first_row - strip.first_row),
+                                  static_cast<std::size_t>(each.last_row - each.first_row)));
+      count_time_since(start);
+    });
+    for (std::optional<TilePlan>& plan : plans) {
+      strip.indices.insert(strip.indices.end(), plan->bricks().begin(), plan->bricks().end());
+      strip.tiles.push_back(*std::move(plan));
+    }
+    std::sort(strip.indices.begin(), strip.indices.end());
+    strip.indices.erase(std::unique(strip.indices.begin(), strip.indices.end()),
+                        strip.indices.end());
+    return strip;
+  }
+
+  void fetch(Strip& strip) {
+    strip.bricks = source_.bricks(strip.from.level, strip.indices);
+    if (strip.first_row == 0) {
+      count_touched();  // of the level before
+    }
+    touched_.insert(touched_.end(), strip.indices.begin(), strip.indices.end());
+  }
+
+  void count_touched() {
     std::sort(touched_.begin(), touched_.end());
     chunks_touched_ += std::unique(touched_.begin(), touched_.end()) - touched_.begin();
     touched_.clear();
   }
 
-  Strip plan_strip(int level, int first_row, const cv::Size& tile) {
-    for (;;) {
-      Strip strip{level, first_row, std::min(first_row + rows_, grid_.rows), {}, {}};
-      std::vector<Tile> tiles;
-      for (int row = strip.first_row; row < strip.last_row; row += tile.height) {
-        for (int column = 0; column < grid_.columns; column += tile.width) {
-          tiles.push_back({{column, std::min(column + tile.width, grid_.columns)},
-                           row,
-                           std::min(row + tile.height, strip.last_row)});
-        }
-      }
-      std::vector<PictureRow> rows(static_cast<std::size_t>(strip.last_row - strip.first_row));
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), kTileRows),
-                        [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                            rows[i] = PictureRow(source_, level, grid_,
-                                                 strip.first_row + static_cast<int>(i));
-                          }
-                        });
-      std::vector<std::optional<TilePlan>> plans(tiles.size());
-      tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        const Tile& each = tiles[i];
-        plans[i].emplace(
-            source_, level, kind_, each,
-            std::span(rows).subspan(static_cast<std::size_t>(each.first_row - strip.first_row),
-                                    static_cast<std::size_t>(each.last_row - each.first_row)));
-      });
-      for (std::optional<TilePlan>& plan : plans) {
-        strip.bricks.insert(strip.bricks.end(), plan->bricks().begin(), plan->bricks().end());
-        strip.tiles.push_back(*std::move(plan));
-      }
-      std::sort(strip.bricks.begin(), strip.bricks.end());
-      strip.bricks.erase(std::unique(strip.bricks.begin(), strip.bricks.end()), strip.bricks.end());
-      if (strip.bricks.size() * TexelBlocks(source_.brick_shape(), source_.bits()).brick_bytes() <=
-              source_.capacity_bytes() / 2 ||
-          rows_ <= kLeastStripRows) {
-        return strip;
-      }
-      rows_ = std::max(rows_ / 2, kLeastStripRows);  // what a strip needs must fit into memory
+  /// The strip's rows of the picture.
+  void fill(const Strip& strip, cv::Mat& picture) {
+    if (strip.from.part == 1.0) {
+      sample_tiles(strip, 0, picture);
+      return;
     }
+    cv::Mat coarse(strip.last_row - strip.first_row, picture.cols, picture.type());
+    sample_tiles(strip, strip.first_row, coarse);
+    cv::Mat rows = picture.rowRange(strip.first_row, strip.last_row);
+    cv::addWeighted(rows, 1.0 - strip.from.part, coarse, strip.from.part, 0.0, rows);
   }
 
-  void sample_strip(const Strip& strip, int first_row, cv::Mat& picture) {
-    const auto start = Clock::now();
-    const std::vector<TexelBrick> bricks = source_.bricks(strip.level, strip.bricks);
-    fetching_ += Clock::now() - start;
-    touched_.insert(touched_.end(), strip.bricks.begin(), strip.bricks.end());
+  void sample_tiles(const Strip& strip, int first_row, cv::Mat& picture) {
     tbb::parallel_for(std::size_t{0}, strip.tiles.size(), [&](std::size_t i) {
+      const auto start = Clock::now();
       const TilePlan& plan = strip.tiles[i];
       std::vector<const std::byte*> texels;
       texels.reserve(plan.bricks().size());
       for (const ChunkIndex& brick : plan.bricks()) {
-        const auto place = std::lower_bound(strip.bricks.begin(), strip.bricks.end(), brick);
-        texels.push_back(bricks[static_cast<std::size_t>(place - strip.bricks.begin())].get());
+        const auto place = std::lower_bound(strip.indices.begin(), strip.indices.end(), brick);
+        texels.push_back(
+            strip.bricks[static_cast<std::size_t>(place - strip.indices.begin())].get());
       }
       samplers_.local().fill(plan, texels, first_row, picture);
+      count_time_since(start);
     });
+  }
+
+  void count_time_since(Clock::time_point start) {
+    sampling_ns_ +=
+        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
   }
 
   BrickSource& source_;
   const PixelGrid& grid_;
   Interpolation kind_;
   const OnRows& on_rows_;
-  std::int64_t rows_done_ = 0;
-  std::int64_t rows_in_all_ = 0;
-  int rows_ = kStripRows;  // of a strip
+  std::vector<LevelPart> levels_;
+  std::size_t next_level_ = 0;  // among levels_, of the strip that is planned next
+  int next_row_ = 0;
+  int rows_ = kStripRows;  // of a strip: as many as fit into memory
   tbb::enumerable_thread_specific<TileSampler<Level>> samplers_;
   std::vector<ChunkIndex>
       touched_;  // of the level at hand; neighbouring strips have some in common
   std::int64_t chunks_touched_ = 0;  // of all levels, each once
-  Clock::duration fetching_{0};
+  std::atomic<std::int64_t> sampling_ns_{0};
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ struct SampleStatistics {
   std::int64_t chunks_touched = 0;  ///< different ones
   int finest_level = 0;             ///< of the pyramid that was read
   int levels = 1;                   ///< how many from there on: 1 or 2
-  double sample_s = 0.0;            ///< elapsed, without the fetching of bricks
+  double sample_s = 0.0;            ///< of planning and sampling, all threads' added up
 };
 
 struct SampledImage {
@@ -33,8 +33,9 @@ using OnRows = std::function<void(std::int64_t done, std::int64_t total)>;
 
 /// The colours of the source at the pixel centres of `grid`, from the levels that level_choice
 /// names; `background` where a centre is outside the cuboid by more than 10⁻⁶ voxel. Strips of the
-/// picture follow each other, the tiles of one are filled in parallel; the result does not depend
-/// on how. `on_rows` is called after each strip, by the caller's thread. Throws what the source and
+/// picture follow each other, the tiles of one are filled in parallel while the bricks of the next
+/// are fetched; the result does not depend on how. `on_rows` is called after each strip, by the
+/// caller's thread. Throws what the source and
 /// `on_rows` throw.
 SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                          const Colour& background, const OnRows& on_rows = {});

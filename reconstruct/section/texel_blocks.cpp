@@ -14,14 +14,17 @@ int divide_up(int size, int side) {
 
 /// A row of voxels into the rows of its blocks, by loads and stores of whole vectors: what a store
 /// writes too much the next one overwrites, so blocks' rows are filled from the first to the last.
-void lay_row_in_vectors(const std::byte* voxels, int blocks, int step, int block_bytes,
-                        int row_bytes, std::byte* out) {
+/// Of a known number of bytes per level, so that the compiler knows all steps.
+template <int level_bytes>
+void lay_row_in_vectors(const std::byte* voxels, int blocks, std::byte* out) {
+  constexpr int kTexelBytes = TexelBlocks::kColours * level_bytes;
+  constexpr int kRowBytes = (TexelBlocks::kSide + 1) * kTexelBytes;
   for (int block = 0; block < blocks; ++block) {
-    for (int part = 0; part < row_bytes; part += kVectorBytes) {
+    for (int part = 0; part < kRowBytes; part += kVectorBytes) {
       std::memcpy(out + part, voxels + part, kVectorBytes);
     }
-    voxels += step;
-    out += block_bytes;
+    voxels += TexelBlocks::kSide * kTexelBytes;
+    out += TexelBlocks::kBlockLevels * level_bytes;
   }
 }
 
@@ -54,7 +57,8 @@ void TexelBlocks::lay_out(std::span<const std::byte> voxels, std::byte* brick) c
     for (int y = 0; y < shape_[1]; ++y) {
       std::byte* const out = layer + along_y(y);
       if (end - in >= std::ptrdiff_t{blocks_x_} * step + 2 * kVectorBytes) {
-        lay_row_in_vectors(in, blocks_x_, step, block_bytes(), row_bytes(), out);
+        level_bytes_ == 1 ? lay_row_in_vectors<1>(in, blocks_x_, out)
+                          : lay_row_in_vectors<2>(in, blocks_x_, out);
       } else {
         lay_row_exactly(in, row_of_voxels, blocks_x_, step, block_bytes(), row_bytes(), out);
       }

@@ -20,6 +20,7 @@ class TexelBlocks {
  public:
   static constexpr int kSide = 4;
   static constexpr int kColours = 3;
+  static constexpr int kBlockLevels = 64;  ///< room for a block's
 
   /// `shape` is of the chunk: z, y, x.
   TexelBlocks(const std::array<int, 3>& shape, int bits);
@@ -27,7 +28,7 @@ class TexelBlocks {
   int level_bytes() const { return level_bytes_; }
   int texel_bytes() const { return kColours * level_bytes_; }
   int row_bytes() const { return (kSide + 1) * texel_bytes(); }  ///< of a block's row
-  int block_bytes() const { return 64 * level_bytes_; }
+  int block_bytes() const { return kBlockLevels * level_bytes_; }
   int block_row_bytes() const { return blocks_x_ * block_bytes(); }  ///< from a block to that below
   int layer_bytes() const { return blocks_y_ * block_row_bytes() + 1 * block_bytes(); }
   std::size_t brick_bytes() const {

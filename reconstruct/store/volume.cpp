@@ -18,6 +18,7 @@
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/zarr_array.hpp"
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -400,7 +401,7 @@ void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const On
   std::vector<Piece> pieces = state_->find(
       level, wanted, [&](std::size_t which) { on_chunk(which, {}); }, fail);
   const std::vector<Run> runs = runs_of(pieces);
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) { read_run(runs[i]); });
+  whole_loop(runs.size(), [&](std::size_t i) { read_run(runs[i]); });
 }
 
 void Volume::expect_chunks(int level, std::span<const ChunkIndex> soon) const {

@@ -153,7 +153,7 @@ TEST_F(SectionAndSeries, StatisticsAreOneLineOfJson) {
   const auto line = nlohmann::json::parse(testing::internal::GetCapturedStderr());
   EXPECT_EQ(line.at("pixels"), 40 * 30);
   EXPECT_GT(line.at("section_s"), 0.0);
-  EXPECT_GE(line.at("section_s"), line.at("sample_s"));
+  EXPECT_GT(line.at("sample_s"), 0.0);
   EXPECT_GT(line.at("encode_s"), 0.0);
 }
 
