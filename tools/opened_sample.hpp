@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
+#include "reconstruct/bricks/layer_tail.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/section/layer_tail.hpp"
 #include "reconstruct/store/volume.hpp"
 
 namespace biotomy::tools {

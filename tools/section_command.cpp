@@ -11,12 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
 #include "reconstruct/section/section_record.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <string>
 
+#include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
 #include "reconstruct/geometry/vector3.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 
 namespace CLI {
 class App;

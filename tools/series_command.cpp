@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/section/film.hpp"
 #include "reconstruct/section/parameter_text.hpp"
@@ -17,7 +18,6 @@
 #include "reconstruct/section/series.hpp"
 #include "reconstruct/section/series_folder.hpp"
 #include "reconstruct/section/series_frames.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
 #include "reconstruct/section/interpolation.hpp"
 
 namespace biotomy::reconstruct {

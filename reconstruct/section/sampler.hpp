@@ -6,7 +6,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
 

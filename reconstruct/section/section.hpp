@@ -6,10 +6,10 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "reconstruct/bricks/brick_source.hpp"
 #include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
 #include "reconstruct/geometry/theta_rectangle.hpp"
-#include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
 #include "reconstruct/section/sampler.hpp"

@@ -6,7 +6,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
 #include "reconstruct/section/frame_canvas.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/series.hpp"

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/section/brick_runs.hpp"
-#include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/bricks/brick_runs.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
+#include "reconstruct/bricks/voxel_places.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
-#include "reconstruct/section/texel_blocks.hpp"
-#include "reconstruct/section/texel_kernels.hpp"
-#include "reconstruct/section/voxel_places.hpp"
 
 namespace biotomy::reconstruct {
 

@@ -7,8 +7,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "reconstruct/bricks/texel_kernels.hpp"
 #include "reconstruct/section/interpolation.hpp"
-#include "reconstruct/section/texel_kernels.hpp"
 #include "reconstruct/section/tile_plan.hpp"
 
 namespace biotomy::reconstruct {

@@ -1,9 +1,13 @@
 // The innermost loops by themselves, with Google Benchmark: how fast one thread decodes a chunk
-// with each codec, and takes its checksum. Bytes a second are those of the decoded voxels.
+// with each codec, takes its checksum and lays it out as a brick, finds a row's runs, places them
+// and mixes their pixels. Bytes a second are those of the decoded voxels, items are pixels.
 //
 //   kernel_bench [--benchmark_filter=decode] …
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,6 +15,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "reconstruct/bricks/brick_runs.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 #include "reconstruct/store/codecs.hpp"
 #include "reconstruct/store/crc32c.hpp"
 #include "reconstruct/store/volume_layout.hpp"
@@ -66,6 +73,90 @@ void checksum(benchmark::State& state, std::uint32_t (*crc)(std::span<const std:
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(chunks[0].size()));
 }
 
+void lay_out(benchmark::State& state) {
+  const VolumeLayout layout;
+  const std::vector<Bytes> chunks = chunks_of(layout);
+  const TexelBlocks blocks(layout.chunk, 8);
+  Bytes brick(blocks.brick_bytes() + TexelBlocks::slack());
+  std::size_t next = 0;
+  for (auto _ : state) {
+    blocks.lay_out(chunks[next++ % chunks.size()], brick.data());
+    benchmark::DoNotOptimize(brick.data());
+  }
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(chunks[0].size()));
+}
+
+/// A row of pixels of the size of a voxel, at 45° through a box of bricks that stay in the cache.
+class Row {
+ public:
+  Row() {
+    path_.block_row_bytes = blocks_.block_row_bytes();
+    path_.layer_bytes = blocks_.layer_bytes();
+    constexpr std::int32_t kVoxel = 1 << kFractionBits;
+    const auto step = static_cast<std::int32_t>(std::sqrt(0.5) * kVoxel);
+    int slot_stride = 1;
+    for (RowAxis& axis : path_.axes) {
+      axis = {kVoxel / 3, step, 0, kBricks * kSide - 1, 0, kSide, slot_stride, 1};
+      slot_stride *= kBricks;
+    }
+    path_.axes[2].step = 0;  // rows lie in a layer
+    bricks_.assign(static_cast<std::size_t>(slot_stride), memory_.data());
+    places_.resize(kPixels);
+    places_.down = path_.layer_bytes;
+    find();
+    place_runs(path_, runs_, bricks_.data(), places_);
+    // What is not placed, where runs are parted, is mixed with the others and read from somewhere.
+    for (auto& row : places_.upper) {
+      std::replace_if(
+          row.begin(), row.end(), [&](const std::byte* place) { return !is_inside(place); },
+          static_cast<const std::byte*>(memory_.data()));
+    }
+  }
+
+  void find() {
+    runs_.clear();
+    finder_.find(path_, kPixels, runs_);
+  }
+  void place() { place_runs(path_, runs_, bricks_.data(), spare_); }
+  void mix() { mix_linear(places_, kPixels, pixels_.data()); }
+
+  static constexpr int kPixels = kMostPixels;
+
+ private:
+  static constexpr int kSide = 32;
+  static constexpr int kBricks = 8;
+
+  bool is_inside(const std::byte* place) const {
+    return place >= memory_.data() &&
+           place < memory_.data() + blocks_.brick_bytes() - blocks_.layer_bytes();
+  }
+
+  static PixelPlaces<std::uint8_t> places() {
+    PixelPlaces<std::uint8_t> result;
+    result.resize(kPixels);
+    return result;
+  }
+
+  TexelBlocks blocks_{{kSide, kSide, kSide}, 8};
+  Bytes memory_ = Bytes(blocks_.brick_bytes() + TexelBlocks::slack());
+  std::vector<const std::byte*> bricks_;
+  RowPath path_;
+  RunFinder finder_;
+  std::vector<BrickRun> runs_;
+  PixelPlaces<std::uint8_t> places_;
+  PixelPlaces<std::uint8_t> spare_ = places();
+  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(4 * (kPixels + kRoomPixels));
+};
+
+void row_step(benchmark::State& state, void (Row::*step)()) {
+  Row row;
+  for (auto _ : state) {
+    (row.*step)();
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * Row::kPixels);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -79,6 +170,10 @@ int main(int argc, char** argv) {
     }
   }
   benchmark::RegisterBenchmark("crc32c", checksum, crc32c);
+  benchmark::RegisterBenchmark("lay_out", lay_out);
+  benchmark::RegisterBenchmark("row/find_runs", row_step, &Row::find);
+  benchmark::RegisterBenchmark("row/place_runs", row_step, &Row::place);
+  benchmark::RegisterBenchmark("row/mix_linear", row_step, &Row::mix);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;

@@ -22,11 +22,11 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "reconstruct/bricks/block_pool.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/geometry/section_polygon.hpp"
-#include "reconstruct/section/block_pool.hpp"
-#include "reconstruct/section/brick_source.hpp"
 #include "reconstruct/section/sampler.hpp"
-#include "reconstruct/section/texel_blocks.hpp"
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <exception>
 #include <iostream>
 
+#include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
@@ -15,7 +16,6 @@
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/store/volume.hpp"
 
 namespace rc = biotomy::reconstruct;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/reconstruct/section/memory_source.hpp"
+#include "tests/reconstruct/bricks/memory_source.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

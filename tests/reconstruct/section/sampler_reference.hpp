@@ -15,7 +15,7 @@
 #include "reconstruct/geometry/section_polygon.hpp"
 #include "reconstruct/section/level_choice.hpp"
 #include "reconstruct/section/sampler.hpp"
-#include "tests/reconstruct/section/memory_source.hpp"
+#include "tests/reconstruct/bricks/memory_source.hpp"
 
 namespace biotomy::reconstruct::tests {
 

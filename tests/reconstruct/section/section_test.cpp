@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
-#include "tests/reconstruct/section/memory_source.hpp"
+#include "tests/reconstruct/bricks/memory_source.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

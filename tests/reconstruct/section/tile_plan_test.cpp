@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "reconstruct/section/texel_kernels.hpp"
-#include "tests/reconstruct/section/memory_source.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
+#include "tests/reconstruct/bricks/memory_source.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

@@ -1,4 +1,4 @@
-#include "reconstruct/section/block_pool.hpp"
+#include "reconstruct/bricks/block_pool.hpp"
 
 #include <algorithm>
 #include <mutex>

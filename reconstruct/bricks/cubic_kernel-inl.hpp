@@ -13,7 +13,7 @@
 
 #include <hwy/highway.h>
 
-#include "reconstruct/section/texel_kernels_scalar.hpp"
+#include "reconstruct/bricks/texel_kernels_scalar.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace biotomy::reconstruct::HWY_NAMESPACE {

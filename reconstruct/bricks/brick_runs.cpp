@@ -1,4 +1,4 @@
-#include "reconstruct/section/brick_runs.hpp"
+#include "reconstruct/bricks/brick_runs.hpp"
 
 #include <cmath>
 #include <limits>

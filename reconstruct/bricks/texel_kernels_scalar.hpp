@@ -11,9 +11,9 @@
 #include <limits>
 #include <span>
 
-#include "reconstruct/section/brick_runs.hpp"
-#include "reconstruct/section/texel_blocks.hpp"
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/brick_runs.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
 namespace biotomy::reconstruct::scalar {
 

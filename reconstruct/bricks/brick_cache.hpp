@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/section/brick_source.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
 
 namespace biotomy::reconstruct {
 

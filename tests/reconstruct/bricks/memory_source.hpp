@@ -15,9 +15,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "reconstruct/section/block_pool.hpp"
-#include "reconstruct/section/brick_source.hpp"
-#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/bricks/block_pool.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "tests/reconstruct/volume_levels.hpp"
 

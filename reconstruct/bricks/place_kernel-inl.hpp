@@ -12,8 +12,8 @@
 
 #include <hwy/highway.h>
 
-#include "reconstruct/section/texel_blocks.hpp"
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace biotomy::reconstruct::HWY_NAMESPACE {

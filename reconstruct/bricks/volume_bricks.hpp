@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/section/block_pool.hpp"
-#include "reconstruct/section/brick_cache.hpp"
-#include "reconstruct/section/brick_source.hpp"
-#include "reconstruct/section/layer_tail.hpp"
-#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/bricks/block_pool.hpp"
+#include "reconstruct/bricks/brick_cache.hpp"
+#include "reconstruct/bricks/brick_source.hpp"
+#include "reconstruct/bricks/layer_tail.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/store/volume.hpp"
 
 namespace biotomy::reconstruct {

@@ -1,4 +1,4 @@
-#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
 namespace biotomy::reconstruct {
 

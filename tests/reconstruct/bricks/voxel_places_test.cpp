@@ -1,4 +1,4 @@
-#include "reconstruct/section/voxel_places.hpp"
+#include "reconstruct/bricks/voxel_places.hpp"
 
 #include <gtest/gtest.h>
 

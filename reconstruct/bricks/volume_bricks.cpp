@@ -1,4 +1,4 @@
-#include "reconstruct/section/volume_bricks.hpp"
+#include "reconstruct/bricks/volume_bricks.hpp"
 
 #include "reconstruct/errors.hpp"
 

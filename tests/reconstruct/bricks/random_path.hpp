@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
 namespace biotomy::reconstruct::tests {
 

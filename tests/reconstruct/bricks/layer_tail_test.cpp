@@ -1,4 +1,4 @@
-#include "reconstruct/section/layer_tail.hpp"
+#include "reconstruct/bricks/layer_tail.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "reconstruct/section/brick_cache.hpp"
+#include "reconstruct/bricks/brick_cache.hpp"
 
 #include <exception>
 #include <future>

@@ -1,4 +1,4 @@
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
-#include "reconstruct/section/brick_runs.hpp"
-#include "reconstruct/section/texel_blocks.hpp"
-#include "reconstruct/section/texel_kernels_scalar.hpp"
-#include "tests/reconstruct/section/random_path.hpp"
+#include "reconstruct/bricks/brick_runs.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_kernels_scalar.hpp"
+#include "tests/reconstruct/bricks/random_path.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

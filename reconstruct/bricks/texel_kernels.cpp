@@ -1,11 +1,11 @@
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
-#include "reconstruct/section/texel_kernels_scalar.hpp"
+#include "reconstruct/bricks/texel_kernels_scalar.hpp"
 
 // Highway compiles this file once for each vector width. Vectors whose length is known only when
 // the program runs have no blocks to rely on; such processors have NEON as well.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reconstruct/section/texel_kernels.cpp"
+#define HWY_TARGET_INCLUDE "reconstruct/bricks/texel_kernels.cpp"
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #endif
@@ -13,10 +13,10 @@
 #include <hwy/highway.h>
 
 #if HWY_TARGET != HWY_SCALAR
-#include "reconstruct/section/cubic_kernel-inl.hpp"
-#include "reconstruct/section/linear_kernel-inl.hpp"
-#include "reconstruct/section/pack_kernel-inl.hpp"
-#include "reconstruct/section/place_kernel-inl.hpp"
+#include "reconstruct/bricks/cubic_kernel-inl.hpp"
+#include "reconstruct/bricks/linear_kernel-inl.hpp"
+#include "reconstruct/bricks/pack_kernel-inl.hpp"
+#include "reconstruct/bricks/place_kernel-inl.hpp"
 #endif
 
 HWY_BEFORE_NAMESPACE();

@@ -11,7 +11,7 @@
 
 #include <hwy/highway.h>
 
-#include "reconstruct/section/texel_kernels.hpp"
+#include "reconstruct/bricks/texel_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace biotomy::reconstruct::HWY_NAMESPACE {

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/section/section.hpp"
-#include "reconstruct/section/volume_bricks.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"

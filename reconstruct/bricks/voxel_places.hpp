@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "reconstruct/section/texel_blocks.hpp"
+#include "reconstruct/bricks/texel_blocks.hpp"
 
 namespace biotomy::reconstruct {
 

@@ -1,4 +1,4 @@
-#include "reconstruct/section/brick_runs.hpp"
+#include "reconstruct/bricks/brick_runs.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/reconstruct/section/random_path.hpp"
+#include "tests/reconstruct/bricks/random_path.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
