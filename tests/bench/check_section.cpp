@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <iostream>
 #include <random>
 #include <sstream>
@@ -21,6 +20,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
+#include "tests/bench/exit_code.hpp"
 #include "tests/bench/made_up_tissue.hpp"
 #include "tests/bench/named_planes.hpp"
 #include "tests/bench/section_pixels.hpp"
@@ -141,14 +141,5 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InvalidRequest& error) {
-    std::cerr << "check_section: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "check_section: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return exit_code_of("check_section", [&] { run(options); });
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -31,6 +30,7 @@
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/zarr_array.hpp"
+#include "tests/bench/exit_code.hpp"
 #include "tests/bench/made_up_tissue.hpp"
 #include "tests/bench/named_planes.hpp"
 #include "tests/bench/section_pixels.hpp"
@@ -204,14 +204,5 @@ int main(int argc, char** argv) {
   app.add_option("--noisy", options.noisy, "Share of the voxels with noise, 0 to 1")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InvalidRequest& error) {
-    std::cerr << "scale_store: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "scale_store: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return exit_code_of("scale_store", [&] { run(options); });
 }

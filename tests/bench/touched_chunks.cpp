@@ -40,6 +40,7 @@
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/zarr_array.hpp"
 #include "tests/bench/chunk_ranges.hpp"
+#include "tests/bench/exit_code.hpp"
 #include "tests/bench/named_planes.hpp"
 #include "tests/bench/section_pixels.hpp"
 
@@ -290,14 +291,5 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InvalidRequest& error) {
-    std::cerr << "touched_chunks: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "touched_chunks: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return exit_code_of("touched_chunks", [&] { run(options); });
 }

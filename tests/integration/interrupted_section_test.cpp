@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "reconstruct/sample/image_file.hpp"
 #include "tests/integration/child_process.hpp"
+#include "tests/integration/noisy_sample.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
@@ -20,18 +20,7 @@ namespace fs = std::filesystem;
 /// Whenever the signal comes, the picture is whole or not there, and so says the exit code.
 TEST(AnInterruptedSection, LeavesAWholePictureOrNone) {
   const TemporaryFolder folder;
-  const fs::path images = folder / "images";
-  fs::create_directory(images);
-  cv::RNG random(1);
-  for (int i = 0; i < 4; ++i) {
-    cv::Mat image(300, 400, CV_8UC3);
-    random.fill(image, cv::RNG::UNIFORM, 0, 256);
-    cv::imwrite(images / (std::to_string(i) + ".png"), image);
-  }
-  const Outcome imported =
-      run({BIOTOMY_TOOL, "import", images, "--spacing", "10,10,20", "-o", folder / "sample"},
-          folder.path());
-  ASSERT_EQ(imported.exit_code, 0) << imported.errors;
+  ASSERT_NO_FATAL_FAILURE(import_noise(folder.path(), 4));
 
   const fs::path pictures = folder / "pictures";
   fs::create_directory(pictures);

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "reconstruct/sample/image_file.hpp"
 #include "tests/integration/child_process.hpp"
+#include "tests/integration/noisy_sample.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
@@ -22,20 +21,7 @@ namespace fs = std::filesystem;
 /// A series that is ended by a signal while it is being cut, and taken up by the same command.
 class InterruptedSeries : public testing::TestWithParam<int> {
  protected:
-  InterruptedSeries() {
-    const fs::path images = folder_ / "images";
-    fs::create_directory(images);
-    cv::RNG random(1);
-    for (int i = 0; i < 8; ++i) {
-      cv::Mat image(300, 400, CV_8UC3);
-      random.fill(image, cv::RNG::UNIFORM, 0, 256);
-      cv::imwrite(images / (std::to_string(i) + ".png"), image);
-    }
-    const Outcome outcome =
-        run({BIOTOMY_TOOL, "import", images, "--spacing", "10,10,20", "-o", folder_ / "sample"},
-            folder_.path());
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  }
+  void SetUp() override { import_noise(folder_.path(), 8); }
 
   std::vector<std::string> command(const std::string& name) const {
     return {BIOTOMY_TOOL,
