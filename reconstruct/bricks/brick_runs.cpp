@@ -60,24 +60,19 @@ int first_pixel_at(const RowAxis& axis, double voxel) {
 
 void RunFinder::find_along(const RowAxis& axis, int count, std::vector<Stretch>& stretches) {
   stretches.clear();
-  int voxel = voxel_at(axis, 0);
-  if (axis.step == 0) {
-    const Zone zone = zone_of(axis, voxel);
-    stretches.push_back({count, zone.bricks, zone.beyond_border});
-    return;
-  }
-  // That a zone's end is not waited for to find the next lets the processor do both at once.
   const int last = voxel_at(axis, count - 1);
-  for (int end = 0; end < count;) {
-    const Zone zone = zone_of(axis, voxel);
-    const bool is_last = zone.low <= last && last < zone.high;
-    voxel = axis.step > 0 ? zone.high : zone.low - 1;
-    const int next = is_last ? count : first_pixel_at(axis, voxel);
+  Zone zone = zone_of(axis, voxel_at(axis, 0));
+  // That a zone's end is not waited for to find the next lets the processor do both at once.
+  for (int end = 0; last < zone.low || last >= zone.high;) {
+    const int voxel = axis.step > 0 ? zone.high : zone.low - 1;
+    const int next = first_pixel_at(axis, voxel);
     if (next > end) {  // else the row steps over the zone
       stretches.push_back({next, zone.bricks, zone.beyond_border});
       end = next;
     }
+    zone = zone_of(axis, voxel);
   }
+  stretches.push_back({count, zone.bricks, zone.beyond_border});
 }
 
 void RunFinder::find(const RowPath& path, int count, std::vector<BrickRun>& runs) {
