@@ -101,7 +101,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  void write_and_sync(std::span<const std::byte> bytes) {
+  void write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
       if (count < 0 && errno == EINTR) {
@@ -112,6 +112,9 @@ class TemporaryFile {
       }
       bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
+  }
+
+  void sync() {
     if (::fsync(file_.get()) != 0) {
       fail(target_, "write it to the disk", errno);
     }
@@ -150,8 +153,19 @@ void write_durably(const fs::path& path, std::span<const std::byte> bytes) {
 
 void write_before_folder_sync(const fs::path& path, std::span<const std::byte> bytes) {
   TemporaryFile file(path);
-  file.write_and_sync(bytes);
+  file.write(bytes);
+  file.sync();
   file.rename_to_target();
+}
+
+void write_durably(const fs::path& path, const FileParts& parts) {
+  TemporaryFile file(path);
+  for (const std::vector<std::byte>& part : parts) {
+    file.write(part);
+  }
+  file.sync();
+  file.rename_to_target();
+  sync_folder(folder_of(path));
 }
 
 void write_durably(const fs::path& path, const std::string& text) {
@@ -161,7 +175,8 @@ void write_durably(const fs::path& path, const std::string& text) {
 std::string write_durably_verified(const fs::path& path, std::span<const std::byte> bytes) {
   const std::string expected = sha256(bytes);
   TemporaryFile file(path);
-  file.write_and_sync(bytes);
+  file.write(bytes);
+  file.sync();
   if (file.hash_from_disk() != expected) {
     throw SampleError(path.string() +
                       ": what the disk gave back is not what was written; check the disk");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace biotomy::reconstruct {
 
@@ -12,6 +13,10 @@ namespace biotomy::reconstruct {
 /// Throws SampleError, with the temporary file removed.
 void write_durably(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_durably(const std::filesystem::path& path, const std::string& text);
+
+/// A file of several parts, one after the other, that need not be put together in memory.
+using FileParts = std::vector<std::vector<std::byte>>;
+void write_durably(const std::filesystem::path& path, const FileParts& parts);
 
 /// As write_durably, without the last step: after a crash the name may hold the old content until
 /// sync_folder was called. For many files of one folder, which are then synced together.

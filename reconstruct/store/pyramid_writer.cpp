@@ -60,10 +60,12 @@ class ShardEncoder {
         layers_(layers),
         before_(before) {}
 
-  Bytes encode() const {
-    std::vector<Bytes> chunks(static_cast<std::size_t>(count_.total()));
-    whole_loop(chunks.size(), [&](std::size_t place) { chunks[place] = encode_chunk(place); });
-    return encode_shard(chunks);
+  /// Its chunks and its index, as they stand in the file.
+  FileParts encode() const {
+    FileParts parts(static_cast<std::size_t>(count_.total()));
+    whole_loop(parts.size(), [&](std::size_t place) { parts[place] = encode_chunk(place); });
+    parts.push_back(encode_shard_index(parts));
+    return parts;
   }
 
  private:
@@ -235,11 +237,14 @@ class PyramidWriter::BandOfLevels {
     return layers;
   }
 
-  void store(const fs::path& path, Bytes shard) {
-    const std::size_t size = shard.size();
-    disk_.add(size, [path, bytes = std::move(shard)] {
+  void store(const fs::path& path, FileParts shard) {
+    std::size_t size = 0;
+    for (const Bytes& part : shard) {
+      size += part.size();
+    }
+    disk_.add(size, [path, parts = std::move(shard)] {
       create_folders_durably(path.parent_path());
-      write_durably(path, bytes);
+      write_durably(path, parts);
     });
   }
 

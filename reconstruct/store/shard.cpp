@@ -47,22 +47,26 @@ bool overlap(const ShardIndex& index) {
 }  // namespace
 
 std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& chunks) {
-  std::size_t stored_bytes = 0;
-  for (const auto& chunk : chunks) {
-    stored_bytes += chunk.size();
-  }
   std::vector<std::byte> shard;
-  shard.reserve(stored_bytes + shard_index_bytes(chunks.size()));
-  std::vector<std::byte> index;
   for (const auto& chunk : chunks) {
-    const ChunkRange range = chunk.empty() ? ChunkRange{} : ChunkRange{shard.size(), chunk.size()};
     shard.insert(shard.end(), chunk.begin(), chunk.end());
+  }
+  const std::vector<std::byte> index = encode_shard_index(chunks);
+  shard.insert(shard.end(), index.begin(), index.end());
+  return shard;
+}
+
+std::vector<std::byte> encode_shard_index(const std::vector<std::vector<std::byte>>& chunks) {
+  std::vector<std::byte> index;
+  std::uint64_t offset = 0;
+  for (const auto& chunk : chunks) {
+    const ChunkRange range = chunk.empty() ? ChunkRange{} : ChunkRange{offset, chunk.size()};
+    offset += chunk.size();
     append_little_endian(index, range.offset, kNumberBytes);
     append_little_endian(index, range.length, kNumberBytes);
   }
   append_little_endian(index, crc32c(index), kChecksumBytes);
-  shard.insert(shard.end(), index.begin(), index.end());
-  return shard;
+  return index;
 }
 
 std::size_t shard_index_bytes(std::size_t chunk_count) {

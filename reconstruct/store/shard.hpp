@@ -28,6 +28,9 @@ using ShardIndex = std::vector<ChunkRange>;
 /// are, the shard is an index alone.
 std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& chunks);
 
+/// What stands behind the chunks: the index and its checksum.
+std::vector<std::byte> encode_shard_index(const std::vector<std::vector<std::byte>>& chunks);
+
 /// Bytes of the index with its checksum: the last of a shard.
 std::size_t shard_index_bytes(std::size_t chunk_count);
 

@@ -23,6 +23,15 @@ TEST(DurableFile, HoldsWhatWasWrittenAndLeavesNothingBeside) {
   EXPECT_THAT(names_in(folder.path()), ElementsAre("a.txt"));
 }
 
+TEST(DurableFile, HoldsItsPartsOneAfterTheOther) {
+  const TemporaryFolder folder;
+  const FileParts parts{{std::byte{1}, std::byte{2}}, {}, {std::byte{3}}};
+  write_durably(folder.path() / "a", parts);
+  EXPECT_THAT(read_file(folder.path() / "a"),
+              ElementsAre(std::byte{1}, std::byte{2}, std::byte{3}));
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("a"));
+}
+
 TEST(DurableFile, NamesTheFileAndTheReasonWhenTheFolderIsMissing) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "missing" / "a.txt";
