@@ -1,6 +1,7 @@
 #include "tools/progress_bar.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -19,7 +20,7 @@ constexpr std::int64_t kWidth = 30;
 constexpr const char* kStartOfLine = "\r\x1b[K";  // carriage return, erase to the end of the line
 
 std::string time_left(double seconds) {
-  const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+  const auto whole = static_cast<std::int64_t>(std::llround(seconds));
   std::ostringstream text;
   text << std::setfill('0');
   if (whole >= 3600) {

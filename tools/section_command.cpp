@@ -54,8 +54,8 @@ std::int64_t peak_rss_bytes() {
 }
 
 struct Durations {
-  std::chrono::duration<double> section;  // from opening the sample to the picture in memory
-  std::chrono::duration<double> encode;
+  std::chrono::duration<double> section{0.0};  // from opening the sample to the picture in memory
+  std::chrono::duration<double> encode{0.0};
 };
 
 // Reading, decoding and sampling go on in several threads at once: their seconds are the threads'

@@ -29,10 +29,10 @@ struct SectionOptions {
 
 /// What those options mean, as far as it does not depend on the sample.
 struct SectionChoices {
-  reconstruct::LengthUnit unit;
-  reconstruct::BasisKind basis;
+  reconstruct::LengthUnit unit{};
+  reconstruct::BasisKind basis{};
   reconstruct::SectionStyle style;
-  std::size_t cache_bytes;
+  std::size_t cache_bytes = 0;
   reconstruct::DamagePolicy damage;
 };
 

@@ -116,7 +116,7 @@ using MakeSeries = Series (*)(const SeriesArguments&, const SectionChoices&,
                               const reconstruct::Cuboid&);
 
 std::string extension_of(const SeriesArguments& arguments) {
-  const std::string extension = '.' + arguments.format;
+  std::string extension = '.' + arguments.format;
   if (extension != ".png" && extension != ".tif" && extension != ".jpg") {
     throw InvalidRequest("--format '" + arguments.format + "': there are png, tif, jpg");
   }

@@ -13,8 +13,6 @@ namespace {
 using bridge::CheckedTable;
 using bridge::FlagKey;
 using bridge::IntegerKey;
-using bridge::Micrometres;
-using bridge::NumberKey;
 using bridge::TextKey;
 using std::chrono::milliseconds;
 

@@ -11,6 +11,7 @@ bool RegisterBlock::holds(const RegisterEntry& entry) const {
 std::vector<RegisterBlock> plan_reads(const RegisterMap& map,
                                       const std::vector<std::string>& names) {
   std::vector<const RegisterEntry*> wanted;
+  wanted.reserve(names.size());
   for (const std::string& name : names) wanted.push_back(&map.at(name));
   const auto is_wanted = [&](const RegisterEntry& entry) {
     return std::find(wanted.begin(), wanted.end(), &entry) != wanted.end();

@@ -35,7 +35,7 @@ struct RigPacket {
   UniqueFd descriptor;
 };
 
-inline constexpr std::size_t kMostBytesInAPacket = 64 * 1024;
+inline constexpr std::size_t kMostBytesInAPacket = std::size_t{64} * 1024;
 
 /// One end of a connection over a Unix-domain SOCK_SEQPACKET socket: packets arrive whole, in order
 /// and once. Every wait has a limit, interrupted calls are taken up again, and a peer that is gone

@@ -172,6 +172,7 @@ void LayerTail::read_chunks(int level, std::span<const ChunkIndex> wanted,
     }
   }
   std::vector<std::vector<std::size_t>> blocks;
+  blocks.reserve(members.size());
   for (auto& [place, those] : members) {
     blocks.push_back(std::move(those));
   }

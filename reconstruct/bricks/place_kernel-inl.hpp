@@ -121,7 +121,9 @@ HWY_INLINE void place_runs_by(const RowPath& path, std::span<const BrickRun> run
     if (run.parted) {
       continue;
     }
-    const auto& [x_bricks, y_bricks, z_bricks] = run.bricks;
+    const BrickPair& x_bricks = run.bricks[0];
+    const BrickPair& y_bricks = run.bricks[1];
+    const BrickPair& z_bricks = run.bricks[2];
     const auto brick = [&](int along_y, int along_z) {
       return bricks[path.slot(x_bricks.near, along_y, along_z)];
     };

@@ -7,6 +7,7 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr int kVectorBytes = 16;
+constexpr std::ptrdiff_t kReadBehind = std::ptrdiff_t{2} * kVectorBytes;
 
 int divide_up(int size, int side) {
   return (size + side - 1) / side;
@@ -17,14 +18,16 @@ int divide_up(int size, int side) {
 /// Of a known number of bytes per level, so that the compiler knows all steps.
 template <int level_bytes>
 void lay_row_in_vectors(const std::byte* voxels, int blocks, std::byte* out) {
-  constexpr int kTexelBytes = TexelBlocks::kColours * level_bytes;
-  constexpr int kRowBytes = (TexelBlocks::kSide + 1) * kTexelBytes;
+  constexpr int kRowBytes = (TexelBlocks::kSide + 1) * TexelBlocks::kColours * level_bytes;
+  constexpr std::ptrdiff_t kStep =
+      std::ptrdiff_t{TexelBlocks::kSide} * TexelBlocks::kColours * level_bytes;
+  constexpr std::ptrdiff_t kBlock = std::ptrdiff_t{TexelBlocks::kBlockLevels} * level_bytes;
   for (int block = 0; block < blocks; ++block) {
     for (int part = 0; part < kRowBytes; part += kVectorBytes) {
       std::memcpy(out + part, voxels + part, kVectorBytes);
     }
-    voxels += TexelBlocks::kSide * kTexelBytes;
-    out += TexelBlocks::kBlockLevels * level_bytes;
+    voxels += kStep;
+    out += kBlock;
   }
 }
 
@@ -56,7 +59,7 @@ void TexelBlocks::lay_out(std::span<const std::byte> voxels, std::byte* brick) c
     std::byte* const layer = brick + std::ptrdiff_t{z} * layer_bytes();
     for (int y = 0; y < shape_[1]; ++y) {
       std::byte* const out = layer + along_y(y);
-      if (end - in >= std::ptrdiff_t{blocks_x_} * step + 2 * kVectorBytes) {
+      if (end - in >= std::ptrdiff_t{blocks_x_} * step + kReadBehind) {
         level_bytes_ == 1 ? lay_row_in_vectors<1>(in, blocks_x_, out)
                           : lay_row_in_vectors<2>(in, blocks_x_, out);
       } else {

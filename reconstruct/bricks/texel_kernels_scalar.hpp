@@ -24,16 +24,18 @@ void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::
   constexpr int kTexel = TexelBlocks::kColours * static_cast<int>(sizeof(Level));
   constexpr int kBlock = 64 * static_cast<int>(sizeof(Level));
   for (const BrickRun& run : runs) {
-    const auto& [x_bricks, y_bricks, z_bricks] = run.bricks;
+    const BrickPair& x_bricks = run.bricks[0];
+    const BrickPair& y_bricks = run.bricks[1];
+    const BrickPair& z_bricks = run.bricks[2];
     for (int i = run.first; i < run.last && !run.parted; ++i) {
       const TexelPair x = texel_pair(path.axes[0], x_bricks, i);
       const TexelPair y = texel_pair(path.axes[1], y_bricks, i);
       const TexelPair z = texel_pair(path.axes[2], z_bricks, i);
       const auto place = [&](int y_brick, int row, int z_brick, int layer) {
         return bricks[path.slot(x_bricks.near, y_brick, z_brick)] +
-               (x.near / kSide * kBlock + x.near % kSide * kTexel +
-                row / kSide * path.block_row_bytes + row % kSide * (kSide + 1) * kTexel +
-                layer * path.layer_bytes);
+               std::ptrdiff_t{x.near / kSide * kBlock + x.near % kSide * kTexel +
+                              row / kSide * path.block_row_bytes +
+                              row % kSide * (kSide + 1) * kTexel + layer * path.layer_bytes};
       };
       const auto pixel = static_cast<std::size_t>(i);
       places.upper[0][pixel] = place(y_bricks.near, y.near, z_bricks.near, z.near);
@@ -53,7 +55,8 @@ void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::
 template <typename Level>
 Level level_of(const std::byte* pair, int x, int colour) {
   Level level{};
-  std::memcpy(&level, pair + (x * TexelBlocks::kColours + colour) * static_cast<int>(sizeof(Level)),
+  std::memcpy(&level,
+              pair + static_cast<std::size_t>(x * TexelBlocks::kColours + colour) * sizeof(Level),
               sizeof level);
   return level;
 }

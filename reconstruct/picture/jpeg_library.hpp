@@ -17,8 +17,8 @@ struct JpegReport {
   /// The first error or warning since it was made; empty if none.
   const char* message() const { return text.data(); }
 
-  jpeg_error_mgr manager;  // first: libjpeg hands a pointer to it back to us
-  std::jmp_buf place;
+  jpeg_error_mgr manager{};  // first: libjpeg hands a pointer to it back to us
+  std::jmp_buf place{};
   std::array<char, JMSG_LENGTH_MAX> text{};
 };
 

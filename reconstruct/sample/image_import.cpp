@@ -192,6 +192,7 @@ class ImportWork {
         throw Interrupted("the import has failed");  // which was told already
       }
       std::vector<cv::Mat> parts;
+      parts.reserve(images.size());
       for (const cv::Mat& image : images) {
         parts.push_back(image(region));
       }

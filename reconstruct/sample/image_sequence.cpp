@@ -143,6 +143,7 @@ ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs) {
   check_alike(names);
   check_numbers(names);
   std::vector<fs::path> files;
+  files.reserve(names.size());
   for (NumberedName& name : names) {
     files.push_back(std::move(name.path));
   }

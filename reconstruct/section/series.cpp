@@ -34,6 +34,7 @@ std::vector<double> values_between(double from, double to, double step) {
     throw InvalidRequest("a series has at most 100000 frames: make its step larger");
   }
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < static_cast<int>(count); ++i) {
     values.push_back(from + i * step);
   }

@@ -173,7 +173,7 @@ void write_durably(const fs::path& path, const std::string& text) {
 }
 
 std::string write_durably_verified(const fs::path& path, std::span<const std::byte> bytes) {
-  const std::string expected = sha256(bytes);
+  std::string expected = sha256(bytes);
   TemporaryFile file(path);
   file.write(bytes);
   file.sync();

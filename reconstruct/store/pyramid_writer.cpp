@@ -181,7 +181,7 @@ class PyramidWriter::BandOfLevels {
   /// Writes the shard, after those of the finer levels that it covers. Returns the band's layers of
   /// its region, for the next coarser level.
   std::vector<cv::Mat> write_shard(std::size_t level, std::int64_t y, std::int64_t x) {
-    const std::vector<cv::Mat> layers =
+    std::vector<cv::Mat> layers =
         level == 0 ? band_(region(level, y, x)) : means_of_covered(level, y, x);
     const ZarrArray& array = writer_.arrays_[level];
     const LayerRange& range = ranges_[level];

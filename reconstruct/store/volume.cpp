@@ -81,6 +81,7 @@ std::vector<Run> runs_of(std::vector<Piece>& pieces) {
 
 std::vector<PyramidLevel> levels_of(const Cuboid& cuboid, const std::vector<LevelFactor>& factors) {
   std::vector<PyramidLevel> levels;
+  levels.reserve(factors.size());
   for (const LevelFactor& factor : factors) {
     levels.push_back(pyramid_level(cuboid, factor));
   }

@@ -84,7 +84,7 @@ class Anatomy {
   float phase(int which) const { return phases_[which]; }
 
   static constexpr int kPhases = 12;
-  float phases_[kPhases];
+  float phases_[kPhases] = {};
 };
 
 }  // namespace biotomy::sim

@@ -62,8 +62,8 @@ void FacePainter::strew(const Block& block) {
   face_.copyTo(picture_);
   constexpr double kSubpixels = 1 << kSubpixelBits;
   for (const Speck& speck : block.debris()) {
-    const cv::Point centre(static_cast<int>(std::lround(speck.x * view_.width * kSubpixels)),
-                           static_cast<int>(std::lround(speck.y * view_.height * kSubpixels)));
+    const cv::Point centre(static_cast<int>(std::lround(kSubpixels * view_.width * speck.x)),
+                           static_cast<int>(std::lround(kSubpixels * view_.height * speck.y)));
     const int radius = static_cast<int>(std::lround(speck.radius_um / view_.pixel_um * kSubpixels));
     cv::circle(picture_, centre, radius, kChipColour, cv::FILLED, cv::LINE_8, kSubpixelBits);
   }

@@ -16,12 +16,12 @@ constexpr double kCoolingTimeConstantSeconds = 60;
 
 }  // namespace
 
-Mechanics::Mechanics(const MechanicsSettings& settings, Block block)
+Mechanics::Mechanics(const MechanicsSettings& settings, const Block& block)
     : feed(settings.feed_speed_um_s),
       traverse(settings.traverse_speed_um_s),
       column(settings.column_speed_um_s),
       settings_(settings),
-      block_(std::move(block)),
+      block_(block),
       block_temperature_c_(settings.block_temperature_c) {}
 
 void Mechanics::advance(double seconds) {

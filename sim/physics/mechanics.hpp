@@ -23,7 +23,7 @@ struct MechanicsSettings {
 /// Time passes by advance() alone, in seconds of the rig.
 class Mechanics {
  public:
-  Mechanics(const MechanicsSettings& settings, Block block);
+  Mechanics(const MechanicsSettings& settings, const Block& block);
 
   void advance(double seconds);
 

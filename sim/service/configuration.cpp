@@ -244,11 +244,13 @@ std::string configuration_reference() {
   std::string text =
       "| key | default | unit | allowed | meaning |\n| --- | --- | --- | --- | --- |\n";
   for (const bridge::DeclaredKey& key : file.declared_keys()) {
-    const std::string name = key.table.empty() ? key.name : key.table + "." + key.name;
+    std::string name = key.table;
+    name.append(name.empty() ? "" : ".").append(key.name);
     const std::string fallback =
         key.default_value.empty() ? "required" : "`" + key.default_value + "`";
-    text += "| `" + name + "` | " + fallback + " | " + key.unit + " | " + key.allowed + " | " +
-            key.description + " |\n";
+    text.append("| `").append(name).append("` | ").append(fallback).append(" | ");
+    text.append(key.unit).append(" | ").append(key.allowed).append(" | ");
+    text.append(key.description).append(" |\n");
   }
   return text;
 }

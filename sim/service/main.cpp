@@ -33,7 +33,7 @@ sigset_t ending_signals() {
 }
 
 /// Turns SIGINT and SIGTERM, blocked everywhere, into a stop.
-void await_signal(const std::stop_token& done, std::stop_source stop) {
+void await_signal(const std::stop_token& done, const std::stop_source& stop) {
   const sigset_t signals = ending_signals();
   const timespec patience{0, 50'000'000};
   while (!done.stop_requested()) {
