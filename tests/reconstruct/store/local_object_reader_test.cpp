@@ -47,6 +47,20 @@ TEST(LocalObjectReader, SaysWhereAnObjectEnds) {
               testing::HasSubstr("truncated"));
 }
 
+TEST(LocalObjectReader, LeavesWhatCannotBeAnnouncedToTheReading) {
+  const TemporaryFolder folder;
+  write_durably(folder.path() / "a", std::string("0123456789"));
+  LocalObjectReader reader(folder.path());
+  const auto version = *reader.version("a");
+  reader.expect("a", version, 2, 4);
+  reader.expect("a", version, 8, 1000);  // further than it goes
+  EXPECT_EQ(read_text(reader, "a", version, 2, 4), "2345");
+  LocalObjectReader other(folder.path());
+  std::filesystem::remove(folder.path() / "a");
+  EXPECT_NO_THROW(other.expect("a", version, 0, 4));
+  EXPECT_THROW(read_text(other, "a", version, 0, 4), SampleError);
+}
+
 TEST(LocalObjectReader, TellsWhenAnObjectWasReplacedSinceItsVersionWasAskedFor) {
   const TemporaryFolder folder;
   write_durably(folder.path() / "a", std::string("old"));
