@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace biotomy::reconstruct {
 namespace {
@@ -13,15 +11,8 @@ constexpr double kSameSize = 1e-6;  // relative: a pixel that is meant to be a v
 
 /// Along an axis of one voxel the pyramid does not go on and colours do not change: it does not
 /// count, except where there is no other.
-double finest_spacing(const PyramidLevel& level) {
-  double finest = std::numeric_limits<double>::infinity();
-  for (const auto& [size, spacing] :
-       {std::pair(level.size.x, level.spacing.x), std::pair(level.size.y, level.spacing.y),
-        std::pair(level.size.z, level.spacing.z)}) {
-    if (size > 1) {
-      finest = std::min(finest, spacing);
-    }
-  }
+double voxel_size(const PyramidLevel& level) {
+  const double finest = finest_spacing(level);
   return std::isfinite(finest) ? finest
                                : std::max({level.spacing.x, level.spacing.y, level.spacing.z});
 }
@@ -31,15 +22,15 @@ double finest_spacing(const PyramidLevel& level) {
 LevelChoice level_choice(const BrickSource& source, double pixel, Interpolation kind) {
   int finer = 0;
   while (finer + 1 < source.levels() &&
-         finest_spacing(source.level(finer + 1)) <= pixel * (1.0 + kSameSize)) {
+         voxel_size(source.level(finer + 1)) <= pixel * (1.0 + kSameSize)) {
     ++finer;
   }
-  const double at_finer = finest_spacing(source.level(finer));
+  const double at_finer = voxel_size(source.level(finer));
   if (finer + 1 == source.levels() || pixel <= at_finer * (1.0 + kSameSize)) {
     return {finer, 0.0};
   }
   const double part =
-      std::log(pixel / at_finer) / std::log(finest_spacing(source.level(finer + 1)) / at_finer);
+      std::log(pixel / at_finer) / std::log(voxel_size(source.level(finer + 1)) / at_finer);
   const double least = kind == Interpolation::nearest ? 0.5 : kLeastPart;
   if (part < least) {
     return {finer, 0.0};

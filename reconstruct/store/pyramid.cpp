@@ -12,7 +12,12 @@ std::int64_t divide_up(std::int64_t size, std::int64_t factor) {
   return (size + factor - 1) / factor;
 }
 
-/// The finest spacing among the axes that can still be halved.
+bool fits(const GridSize& size, const std::array<int, 3>& chunk) {
+  return size.x <= chunk[2] && size.y <= chunk[1] && size.z <= chunk[0];
+}
+
+}  // namespace
+
 double finest_spacing(const PyramidLevel& level) {
   double finest = std::numeric_limits<double>::infinity();
   for (const auto& [size, spacing] :
@@ -24,12 +29,6 @@ double finest_spacing(const PyramidLevel& level) {
   }
   return finest;
 }
-
-bool fits(const GridSize& size, const std::array<int, 3>& chunk) {
-  return size.x <= chunk[2] && size.y <= chunk[1] && size.z <= chunk[0];
-}
-
-}  // namespace
 
 PyramidLevel pyramid_level(const Cuboid& finest, const LevelFactor& factor) {
   const auto along = [](std::int64_t times, double spacing) {

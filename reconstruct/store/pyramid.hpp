@@ -27,6 +27,10 @@ struct PyramidLevel {
   Vector3 origin;   ///< (factor − 1)/2 voxels of level 0 along each axis
 };
 
+/// The finest spacing among the axes of more than one voxel, those that can still be halved;
+/// infinite where there is none.
+double finest_spacing(const PyramidLevel& level);
+
 /// The level that `factor` makes of `finest`.
 PyramidLevel pyramid_level(const Cuboid& finest, const LevelFactor& factor);
 
