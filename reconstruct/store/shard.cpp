@@ -46,16 +46,6 @@ bool overlap(const ShardIndex& index) {
 
 }  // namespace
 
-std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& chunks) {
-  std::vector<std::byte> shard;
-  for (const auto& chunk : chunks) {
-    shard.insert(shard.end(), chunk.begin(), chunk.end());
-  }
-  const std::vector<std::byte> index = encode_shard_index(chunks);
-  shard.insert(shard.end(), index.begin(), index.end());
-  return shard;
-}
-
 std::vector<std::byte> encode_shard_index(const std::vector<std::vector<std::byte>>& chunks) {
   std::vector<std::byte> index;
   std::uint64_t offset = 0;

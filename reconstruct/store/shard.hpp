@@ -23,12 +23,9 @@ struct ChunkRange {
 /// One range for each inner chunk, x running fastest, then y, then z.
 using ShardIndex = std::vector<ChunkRange>;
 
-/// Zarr v3, codec `sharding_indexed` 1.0: the encoded chunks one after the other, then the index as
-/// little-endian 64-bit numbers, then its CRC-32C. A chunk without bytes is fill value; where all
-/// are, the shard is an index alone.
-std::vector<std::byte> encode_shard(const std::vector<std::vector<std::byte>>& chunks);
-
-/// What stands behind the chunks: the index and its checksum.
+/// Zarr v3, codec `sharding_indexed` 1.0: a shard is the encoded chunks one after the other, then
+/// the index as little-endian 64-bit numbers, then its CRC-32C; these two are what this returns. A
+/// chunk without bytes is fill value; where all are, the shard is an index alone.
 std::vector<std::byte> encode_shard_index(const std::vector<std::vector<std::byte>>& chunks);
 
 /// Bytes of the index with its checksum: the last of a shard.

@@ -7,6 +7,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/whole_shard.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::bench {
@@ -34,7 +35,7 @@ class ShardsOnDisk : public testing::Test {
   }
   void write(std::int64_t x, const std::vector<Bytes>& chunks) const {
     std::filesystem::create_directories(shard(x).parent_path());
-    reconstruct::write_file(shard(x), reconstruct::encode_shard(chunks));
+    reconstruct::write_file(shard(x), reconstruct::whole_shard(chunks));
   }
 
   tests::TemporaryFolder folder_;

@@ -34,6 +34,7 @@
 #include "tests/bench/made_up_tissue.hpp"
 #include "tests/bench/named_planes.hpp"
 #include "tests/bench/section_pixels.hpp"
+#include "tests/reconstruct/whole_shard.hpp"
 
 namespace {
 
@@ -126,7 +127,7 @@ void write_shards(const fs::path& folder, const Shards& shards, const PyramidLev
       encoded[static_cast<std::size_t>(number)] =
           codec.encode(voxels_of(chunk, level, layout.chunk, tissue));
     }
-    const Bytes bytes = encode_shard(encoded);
+    const Bytes bytes = whole_shard(encoded);
     const fs::path file = folder / shard_key(place.z, place.y, place.x);
     fs::create_directories(file.parent_path());
     write_durably(file, bytes);

@@ -15,6 +15,7 @@
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/zarr_array.hpp"
 #include "tests/fuzz/chunk_kinds.hpp"
+#include "tests/reconstruct/whole_shard.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
@@ -68,7 +69,7 @@ void write_metadata(const Seeds& seeds) {
 void write_indices(const Seeds& seeds) {
   const std::vector<std::byte> chunk(40, std::byte{7});
   const auto index = [](const std::vector<std::vector<std::byte>>& chunks) {
-    const std::vector<std::byte> shard = reconstruct::encode_shard(chunks);
+    const std::vector<std::byte> shard = reconstruct::whole_shard(chunks);
     const auto last = std::span(shard).last(reconstruct::shard_index_bytes(chunks.size()));
     return std::vector<std::byte>(last.begin(), last.end());
   };

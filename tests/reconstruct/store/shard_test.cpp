@@ -5,6 +5,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/crc32c.hpp"
 #include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/whole_shard.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -20,7 +21,7 @@ std::span<const std::byte> index_of(const Bytes& shard, std::size_t chunks) {
 }
 
 TEST(Shard, IndexTellsWhereEachChunkLies) {
-  const Bytes shard = encode_shard({filled(5, 1), {}, filled(3, 2)});
+  const Bytes shard = whole_shard({filled(5, 1), {}, filled(3, 2)});
   const ShardIndex index = parse_shard_index(index_of(shard, 3), shard.size());
   EXPECT_EQ(shard.size(), 8 + 3 * 16 + 4U);
   EXPECT_EQ(index, (ShardIndex{{0, 5}, {}, {5, 3}}));
@@ -29,25 +30,25 @@ TEST(Shard, IndexTellsWhereEachChunkLies) {
 }
 
 TEST(Shard, FillValueIsAllOnesInTheIndex) {
-  const Bytes shard = encode_shard({{}, filled(1, 9)});
+  const Bytes shard = whole_shard({{}, filled(1, 9)});
   EXPECT_EQ(Bytes(shard.begin() + 1, shard.begin() + 17), filled(16, 0xFF));
 }
 
 TEST(Shard, OfNothingButFillValueIsAnIndexAlone) {
-  const Bytes shard = encode_shard({{}, {}});
+  const Bytes shard = whole_shard({{}, {}});
   EXPECT_EQ(shard.size(), shard_index_bytes(2));
   EXPECT_EQ(parse_shard_index(shard, shard.size()), ShardIndex(2));
 }
 
 TEST(Shard, RefusesAnIndexWithAWrongChecksum) {
-  Bytes shard = encode_shard({filled(5, 1)});
+  Bytes shard = whole_shard({filled(5, 1)});
   shard[7] ^= std::byte{1};
   EXPECT_THAT(message_of<SampleError>([&] { parse_shard_index(index_of(shard, 1), shard.size()); }),
               testing::HasSubstr("checksum"));
 }
 
 TEST(Shard, RefusesARangeThatLeadsOutOfTheShard) {
-  const Bytes shard = encode_shard({filled(5, 1)});
+  const Bytes shard = whole_shard({filled(5, 1)});
   // The same index, with its good checksum, on a shard that lost a byte of its chunk.
   EXPECT_THAT(
       message_of<SampleError>([&] { parse_shard_index(index_of(shard, 1), shard.size() - 1); }),

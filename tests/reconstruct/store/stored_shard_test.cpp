@@ -8,6 +8,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/whole_shard.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::reconstruct {
@@ -23,7 +24,7 @@ class AStoredShard : public testing::Test {
     layout_.shard = {2, 4, 4};
     layout_.codec = "zstd1";
     voxels_.assign(codec().chunk_bytes(), std::byte{7});
-    write_file(path_, encode_shard({{}, codec().encode(voxels_), {}, {}}));
+    write_file(path_, whole_shard({{}, codec().encode(voxels_), {}, {}}));
   }
   ChunkCodec codec() const { return {layout_, 8}; }
   std::optional<StoredShard> open() const { return StoredShard::open(path_, array()); }
@@ -78,7 +79,7 @@ TEST_F(AStoredShard, HoldsNoMoreThanItsIndexHoweverLongTheFileIs) {
 
 TEST_F(AStoredShard, RefusesAChunkThatIsLongerThanAnyEncoderMakesIt) {
   write_file(path_,
-             encode_shard({std::vector<std::byte>(codec().longest_encoded() + 1), {}, {}, {}}));
+             whole_shard({std::vector<std::byte>(codec().longest_encoded() + 1), {}, {}, {}}));
   EXPECT_THAT(message_of<SampleError>([&] { open(); }),
               AllOf(HasSubstr(path_.string()), HasSubstr("more than any has")));
 }

@@ -9,6 +9,7 @@
 #include "tests/reconstruct/findings.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
+#include "tests/reconstruct/whole_shard.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::reconstruct {
@@ -50,7 +51,7 @@ class VolumeVerification : public testing::Test {
     shard->decode(0, codec, voxels);
     voxels[3] ^= std::byte{1};
     chunks[0] = codec.encode(voxels);
-    write_file(in_volume(name), encode_shard(chunks));
+    write_file(in_volume(name), whole_shard(chunks));
   }
 
   tests::TemporaryFolder folder_;
