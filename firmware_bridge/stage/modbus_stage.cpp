@@ -19,16 +19,16 @@ using Kind = DeviceError::Kind;
 constexpr std::uint16_t kMapMagic = 0xB107;
 
 const std::vector<std::string> kIdentityNames = {
-    "map_magic",    "map_version",    "watchdog_timeout", "feed_minimum",
-    "feed_maximum", "column_minimum", "column_maximum"};
+    "map_magic",        "map_version",      "watchdog_timeout", "feed_minimum",  "feed_maximum",
+    "traverse_minimum", "traverse_maximum", "column_minimum",   "column_maximum"};
 
 const std::vector<std::string> kStatusNames = {
-    "controller_state",     "fault_code",          "interlocks",
-    "controller_heartbeat", "command_result",      "sequence_started",
-    "sequence_finished",    "grind_count",         "feed_position",
-    "traverse_position",    "column_position",     "ground_position",
-    "spindle_speed",        "spindle_load",        "vibration",
-    "block_temperature",    "chamber_temperature", "outputs"};
+    "controller_state",    "fault_code",        "interlocks",        "controller_heartbeat",
+    "command_result",      "sequence_started",  "sequence_finished", "grind_count",
+    "feed_position",       "traverse_position", "column_position",   "ground_position",
+    "spindle_speed",       "spindle_load",      "vibration",         "block_temperature",
+    "chamber_temperature", "outputs",           "feed_target",       "traverse_target",
+    "column_target"};
 
 const std::vector<std::string> kCommandNames = {"command", "argument_position", "argument_duration",
                                                 "argument_spindle", "sequence"};
@@ -149,10 +149,12 @@ ModbusStage::ModbusStage(RegisterMap map, std::unique_ptr<RegisterBus> bus)
   check_readable(map_, kIdentityNames);
   check_readable(map_, kStatusNames);
   check_writable(map_, "daemon_heartbeat");
+  check_readable(map_, {"echo"});
+  check_writable(map_, "echo");
   check_unscaled(map_,
                  {"map_magic", "map_version", "controller_state", "fault_code", "interlocks",
                   "controller_heartbeat", "command_result", "sequence_started", "sequence_finished",
-                  "grind_count", "outputs", "daemon_heartbeat", "command", "sequence"});
+                  "grind_count", "outputs", "daemon_heartbeat", "command", "sequence", "echo"});
   command_block_ = command_block(map_);
   identity_blocks_ = plan_reads(map_, kIdentityNames);
   status_blocks_ = plan_reads(map_, kStatusNames);
@@ -188,6 +190,8 @@ StageIdentity ModbusStage::identify() {
   identity.watchdog_timeout =
       std::chrono::milliseconds(std::llround(snapshot.value("watchdog_timeout")));
   identity.feed = {snapshot.position("feed_minimum"), snapshot.position("feed_maximum")};
+  identity.traverse = {snapshot.position("traverse_minimum"),
+                       snapshot.position("traverse_maximum")};
   identity.column = {snapshot.position("column_minimum"), snapshot.position("column_maximum")};
   return identity;
 }
@@ -216,6 +220,9 @@ StageStatus ModbusStage::exchange(std::uint16_t heartbeat) {
   status.feed = snapshot.position("feed_position");
   status.traverse = snapshot.position("traverse_position");
   status.column = snapshot.position("column_position");
+  status.feed_target = snapshot.position("feed_target");
+  status.traverse_target = snapshot.position("traverse_target");
+  status.column_target = snapshot.position("column_target");
   status.ground_to = snapshot.position("ground_position");
   status.spindle_rpm = snapshot.value("spindle_speed");
   status.spindle_load_percent = snapshot.value("spindle_load");

@@ -50,6 +50,7 @@ struct StageIdentity {
   std::uint16_t map_version = 0;
   std::chrono::milliseconds watchdog_timeout{0};  ///< 0: the controller does not watch its master
   AxisLimits feed;
+  AxisLimits traverse;
   AxisLimits column;
 };
 
@@ -68,6 +69,9 @@ struct StageStatus {
   Micrometres feed{};
   Micrometres traverse{};
   Micrometres column{};
+  Micrometres feed_target{};  ///< where the axis is going; `feed` when it is at rest
+  Micrometres traverse_target{};
+  Micrometres column_target{};
   Micrometres ground_to{};  ///< the deepest feed position at which a pass was finished
   double spindle_rpm = 0.0;
   double spindle_load_percent = 0.0;

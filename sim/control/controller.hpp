@@ -92,6 +92,10 @@ class Controller {
 
   const ControllerSettings& settings() const { return settings_; }
 
+  /// How far the block goes: from where it is parked until the whole face has passed the wheel.
+  double traverse_minimum_um() const { return 0; }
+  double traverse_maximum_um() const;
+
  private:
   /// A part of a command: begin it, then wait until it has come to its end.
   struct Step {

@@ -17,6 +17,10 @@ double Controller::lifted(double feed_um) const {
   return std::max(settings_.feed_minimum_um, feed_um - settings_.lift_um);
 }
 
+double Controller::traverse_maximum_um() const {
+  return mechanics_.face_end_um() + kRunOutUm;
+}
+
 Controller::Step Controller::move(Axis& axis, double target_um, double speed_um_s) const {
   return {[&axis, target_um, speed_um_s] { axis.go_to(target_um, speed_um_s); },
           [&axis] { return axis.arrived(); }};
@@ -54,7 +58,7 @@ void Controller::plan_home() {
   const MechanicsSettings& machine = mechanics_.settings();
   steps_.push_back(spin(0));
   steps_.push_back(move(mechanics_.feed, settings_.feed_minimum_um, machine.feed_speed_um_s));
-  steps_.push_back(move(mechanics_.traverse, 0, machine.traverse_speed_um_s));
+  steps_.push_back(move(mechanics_.traverse, traverse_minimum_um(), machine.traverse_speed_um_s));
   steps_.push_back(move(mechanics_.column, settings_.column_minimum_um, machine.column_speed_um_s));
 }
 
@@ -67,8 +71,7 @@ void Controller::plan_grind_pass(const Command& command) {
                         machine.traverse_speed_um_s));
   steps_.push_back({[this] { mechanics_.flow_coolant(true); }, [] { return true; }});
   steps_.push_back(move(mechanics_.feed, command.position_um, machine.feed_speed_um_s));
-  steps_.push_back(
-      move(mechanics_.traverse, mechanics_.face_end_um() + kRunOutUm, machine.grinding_speed_um_s));
+  steps_.push_back(move(mechanics_.traverse, traverse_maximum_um(), machine.grinding_speed_um_s));
   steps_.push_back({[this] { mechanics_.flow_coolant(false); }, [] { return true; }});
 }
 
@@ -80,7 +83,7 @@ void Controller::plan_retract() {
                                             machine.feed_speed_um_s);
                     },
                     [this] { return mechanics_.feed.arrived(); }});
-  steps_.push_back(move(mechanics_.traverse, 0, machine.traverse_speed_um_s));
+  steps_.push_back(move(mechanics_.traverse, traverse_minimum_um(), machine.traverse_speed_um_s));
   steps_.push_back(spin(0));
 }
 

@@ -26,11 +26,13 @@ constexpr std::array kInputNames = {
     "traverse_position", "column_position",     "ground_position",
     "spindle_speed",     "spindle_load",        "vibration",
     "block_temperature", "chamber_temperature", "outputs",
-    "feed_minimum",      "feed_maximum",        "column_minimum",
-    "column_maximum"};
+    "feed_target",       "traverse_target",     "column_target",
+    "feed_minimum",      "feed_maximum",        "traverse_minimum",
+    "traverse_maximum",  "column_minimum",      "column_maximum"};
 
-constexpr std::array kHoldingNames = {"daemon_heartbeat",  "command",          "argument_position",
-                                      "argument_duration", "argument_spindle", "sequence"};
+constexpr std::array kHoldingNames = {
+    "daemon_heartbeat", "command", "argument_position", "argument_duration", "argument_spindle",
+    "sequence",         "echo"};
 
 void check(const bridge::RegisterMap& map, const char* name, RegisterTable table) {
   const RegisterEntry& entry = map.at(name);
@@ -116,8 +118,13 @@ void ControllerRegisters::show(const ControllerReading& reading) {
   put("block_temperature", reading.block_temperature_c);
   put("chamber_temperature", reading.chamber_temperature_c);
   put("outputs", bits({reading.coolant_on, reading.air_on}));
+  put("feed_target", reading.feed_target_um);
+  put("traverse_target", reading.traverse_target_um);
+  put("column_target", reading.column_target_um);
   put("feed_minimum", reading.settings.feed_minimum_um);
   put("feed_maximum", reading.settings.feed_maximum_um);
+  put("traverse_minimum", reading.traverse_minimum_um);
+  put("traverse_maximum", reading.traverse_maximum_um);
   put("column_minimum", reading.settings.column_minimum_um);
   put("column_maximum", reading.settings.column_maximum_um);
 }

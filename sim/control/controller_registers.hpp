@@ -18,6 +18,11 @@ struct ControllerReading {
   double feed_um = 0;
   double traverse_um = 0;
   double column_um = 0;
+  double feed_target_um = 0;  ///< where the axis is going; feed_um when it is at rest
+  double traverse_target_um = 0;
+  double column_target_um = 0;
+  double traverse_minimum_um = 0;
+  double traverse_maximum_um = 0;
   double spindle_rpm = 0;
   double spindle_load_percent = 0;
   double vibration_mm_s = 0;

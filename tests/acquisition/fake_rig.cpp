@@ -15,6 +15,12 @@ using bridge::ControllerState;
 using bridge::DeviceError;
 using bridge::StageAction;
 
+namespace {
+
+constexpr double kTraverseAfterPassUm = 80000.0;
+
+}  // namespace
+
 FakeStage::FakeStage() {
   status.state = ControllerState::idle;
   status.interlocks = {
@@ -32,6 +38,7 @@ bridge::StageStatus FakeStage::exchange(std::uint16_t) {
   if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (!heart_stopped) ++status.controller_heartbeat;
   if (under_way_ && --exchanges_left_ <= 0) finish();
+  aim();
   return status;
 }
 
@@ -75,7 +82,7 @@ void FakeStage::finish() {
       status.feed = done.command.position + bridge::Micrometres{feed_error_um.value_or(0.0)};
       status.ground_to = std::max(status.ground_to, status.feed);
       ++status.grind_count;
-      status.traverse = {80000.0};
+      status.traverse = {kTraverseAfterPassUm};
       break;
     case StageAction::retract:
       status.traverse = {0.0};
@@ -90,6 +97,22 @@ void FakeStage::finish() {
     case StageAction::clear_face:
     case StageAction::stop:
       break;
+  }
+}
+
+void FakeStage::aim() {
+  status.feed_target = status.feed;
+  status.traverse_target = status.traverse;
+  status.column_target = status.column;
+  if (!under_way_) return;
+  const bridge::StageCommand& command = under_way_->command;
+  if (command.action == StageAction::grind_pass) {
+    status.feed_target = command.position;
+    status.traverse_target = {kTraverseAfterPassUm};
+  } else if (command.action == StageAction::retract) {
+    status.traverse_target = {0.0};
+  } else if (command.action == StageAction::move_column) {
+    status.column_target = command.position;
   }
 }
 

@@ -18,9 +18,10 @@ namespace biotomy::tests {
 /// A controller that does what a good one does, a few exchanges a command. The knobs make it
 /// another.
 struct FakeStage : bridge::Stage {
-  bridge::StageIdentity identity{.map_version = 1,
+  bridge::StageIdentity identity{.map_version = 2,
                                  .watchdog_timeout = std::chrono::milliseconds(1000),
                                  .feed = {{0.0}, {50000.0}},
+                                 .traverse = {{0.0}, {200000.0}},
                                  .column = {{0.0}, {10000.0}}};
   bridge::StageStatus status{};
   int exchanges_per_command = 2;
@@ -56,6 +57,7 @@ struct FakeStage : bridge::Stage {
  private:
   void begin(std::uint32_t sequence, const bridge::StageCommand& command);
   void finish();
+  void aim();
 
   std::optional<Executed> under_way_;
   int exchanges_left_ = 0;

@@ -243,6 +243,8 @@ TEST(ControllerRegisters, ShowTheReadingAsTheMapHasIt) {
   reading.status.homed = true;
   reading.memory.sequence_started = 0x10002;
   reading.feed_um = -12.3;
+  reading.feed_target_um = -20;
+  reading.traverse_maximum_um = 160000;
   reading.spindle_load_percent = 1e9;  // more than the register holds
   r.registers.show(reading);
   const auto input = r.registers.input();
@@ -253,6 +255,8 @@ TEST(ControllerRegisters, ShowTheReadingAsTheMapHasIt) {
   EXPECT_EQ(input[9], 2);
   EXPECT_EQ(static_cast<std::int32_t>((input[14] << 16) | input[15]), -123);
   EXPECT_EQ(input[23], 65535);
+  EXPECT_EQ(static_cast<std::int32_t>((input[28] << 16) | input[29]), -200);
+  EXPECT_EQ((input[40] << 16) | input[41], 1600000);
 }
 
 TEST(ControllerRegisters, TakeTheCommandWithItsSequenceNumber) {
@@ -270,10 +274,20 @@ TEST(ControllerRegisters, TakeTheCommandWithItsSequenceNumber) {
   EXPECT_DOUBLE_EQ(command.spindle_rpm, 3000);
 }
 
+TEST(ControllerRegisters, GiveTheEchoBackAndTakeItForNothingElse) {
+  Registers r;
+  const RegisterWrite write = r.registers.judge(8, 1);
+  EXPECT_TRUE(write.allowed);
+  EXPECT_FALSE(write.command);
+  EXPECT_FALSE(write.heartbeat);
+  r.registers.write(8, std::vector<std::uint16_t>{0xBEEF});
+  EXPECT_EQ(r.registers.holding()[8], 0xBEEF);
+}
+
 TEST(ControllerRegisters, LetNobodyWriteWhatIsNotThereOrHalfANumber) {
   Registers r;
-  EXPECT_FALSE(r.registers.judge(8, 1).allowed);
-  EXPECT_FALSE(r.registers.judge(0, 9).allowed);
+  EXPECT_FALSE(r.registers.judge(9, 1).allowed);
+  EXPECT_FALSE(r.registers.judge(0, 10).allowed);
   EXPECT_FALSE(r.registers.judge(6, 1).allowed);
   EXPECT_TRUE(r.registers.judge(6, 2).allowed);
 }

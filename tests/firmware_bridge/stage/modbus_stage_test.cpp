@@ -20,8 +20,8 @@ using Kind = DeviceError::Kind;
 /// A controller as two arrays of registers that notes its requests.
 struct FakeBus final : RegisterBus {
   struct State {
-    std::vector<std::uint16_t> input = std::vector<std::uint16_t>(36);
-    std::vector<std::uint16_t> holding = std::vector<std::uint16_t>(8);
+    std::vector<std::uint16_t> input = std::vector<std::uint16_t>(46);
+    std::vector<std::uint16_t> holding = std::vector<std::uint16_t>(9);
     std::vector<std::string> requests;
     bool write_times_out = false;
   };
@@ -60,7 +60,7 @@ class ModbusStageTest : public ::testing::Test {
  protected:
   ModbusStageTest() {
     put("map_magic", 0xB107);
-    put("map_version", 1);
+    put("map_version", 2);
     put("controller_state", 1);
   }
 
@@ -88,7 +88,7 @@ class ModbusStageTest : public ::testing::Test {
 
 TEST_F(ModbusStageTest, ExchangesInOneWriteAndOneRead) {
   stage_.exchange(77);
-  EXPECT_THAT(state_.requests, ::testing::ElementsAre("write 0 1", "read 2 26"));
+  EXPECT_THAT(state_.requests, ::testing::ElementsAre("write 0 1", "read 2 32"));
   EXPECT_EQ(written("daemon_heartbeat"), 77);
 }
 
@@ -100,6 +100,9 @@ TEST_F(ModbusStageTest, ReportsTheStatusInItsUnits) {
   put("sequence_started", 4000000000.0);
   put("grind_count", 12);
   put("feed_position", -1234.5);
+  put("feed_target", -1200);
+  put("traverse_target", 150000.5);
+  put("column_target", 33.3);
   put("ground_position", 900.1);
   put("block_temperature", -40.25);
   put("outputs", 2);
@@ -114,6 +117,9 @@ TEST_F(ModbusStageTest, ReportsTheStatusInItsUnits) {
   EXPECT_EQ(status.sequence_started, 4000000000U);
   EXPECT_EQ(status.grind_count, 12U);
   EXPECT_EQ(status.feed.value, -1234.5);
+  EXPECT_EQ(status.feed_target.value, -1200);
+  EXPECT_EQ(status.traverse_target.value, 150000.5);
+  EXPECT_EQ(status.column_target.value, 33.3);
   EXPECT_EQ(status.ground_to.value, 900.1);
   EXPECT_EQ(status.block_temperature_c, -40.25);
   EXPECT_FALSE(status.coolant_on);
@@ -154,10 +160,14 @@ TEST_F(ModbusStageTest, SendsNothingForATargetThatDoesNotFit) {
 TEST_F(ModbusStageTest, IdentifiesTheController) {
   put("watchdog_timeout", 1500);
   put("feed_maximum", 50000);
+  put("traverse_minimum", -10);
+  put("traverse_maximum", 160000);
   const StageIdentity identity = stage_.identify();
-  EXPECT_EQ(identity.map_version, 1);
+  EXPECT_EQ(identity.map_version, 2);
   EXPECT_EQ(identity.watchdog_timeout, std::chrono::milliseconds(1500));
   EXPECT_EQ(identity.feed.maximum.value, 50000);
+  EXPECT_EQ(identity.traverse.minimum.value, -10);
+  EXPECT_EQ(identity.traverse.maximum.value, 160000);
 }
 
 TEST_F(ModbusStageTest, RefusesAControllerWithOtherRegisters) {
@@ -165,9 +175,9 @@ TEST_F(ModbusStageTest, RefusesAControllerWithOtherRegisters) {
   EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
               HasSubstr("map_magic is 1, expected 45319"));
   put("map_magic", 0xB107);
-  put("map_version", 2);
+  put("map_version", 3);
   EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
-              HasSubstr("has version 2 of the register map"));
+              HasSubstr("has version 3 of the register map"));
 }
 
 TEST_F(ModbusStageTest, RefusesAMapThatLacksAName) {
@@ -177,7 +187,7 @@ TEST_F(ModbusStageTest, RefusesAMapThatLacksAName) {
 
 TEST_F(ModbusStageTest, RefusesAMapWhoseCommandIsNotOneBlock) {
   EXPECT_THAT(refusal_of_map(replaced(map_text(), R"(table = "holding", address = 6)",
-                                      R"(table = "holding", address = 8)")),
+                                      R"(table = "holding", address = 20)")),
               HasSubstr("registers.sequence: must follow argument_spindle without a gap"));
 }
 

@@ -23,7 +23,7 @@ RegisterMap map_of(const std::string& entries) {
 TEST(RegisterBlocks, FetchTheWholeStatusOfTheReferenceMapInOneRead) {
   const RegisterMap map = RegisterMap::read_file(BIOTOMY_REGISTER_MAP);
   EXPECT_THAT(plan_reads(map, {"column_maximum", "map_magic", "feed_position"}),
-              ElementsAre(RegisterBlock{RegisterTable::input, 0, 36}));
+              ElementsAre(RegisterBlock{RegisterTable::input, 0, 46}));
 }
 
 TEST(RegisterBlocks, RunOverKnownRegistersButNotOverUnknownOnes) {

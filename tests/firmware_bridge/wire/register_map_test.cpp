@@ -28,7 +28,7 @@ std::string entry(const std::string& name, int address, const std::string& type 
 
 TEST(RegisterMap, ReadsTheReferenceMap) {
   const RegisterMap map = RegisterMap::read_file(BIOTOMY_REGISTER_MAP);
-  EXPECT_EQ(map.version(), 1);
+  EXPECT_EQ(map.version(), 2);
   EXPECT_EQ(map.word_order(), WordOrder::big);
   const RegisterEntry& feed = map.at("feed_position");
   EXPECT_EQ(feed.table, RegisterTable::input);
@@ -36,8 +36,8 @@ TEST(RegisterMap, ReadsTheReferenceMap) {
   EXPECT_EQ(feed.type, RegisterType::i32);
   EXPECT_EQ(feed.scale, 0.1);
   EXPECT_EQ(feed.unit, "um");
-  EXPECT_EQ(map.extent(RegisterTable::input), 36);
-  EXPECT_EQ(map.extent(RegisterTable::holding), 8);
+  EXPECT_EQ(map.extent(RegisterTable::input), 46);
+  EXPECT_EQ(map.extent(RegisterTable::holding), 9);
 }
 
 TEST(RegisterMap, SortsItsEntriesByTableAndAddress) {
