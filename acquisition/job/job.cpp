@@ -40,6 +40,10 @@ std::chrono::milliseconds limit_of(JobState state, const JobSettings& settings) 
       return limits.recovery_limit;
     case JobState::homing:
       return limits.home_limit;
+    case JobState::conditioning:
+      return limits.conditioning_limit;
+    case JobState::held:
+      return limits.held_limit;
     case JobState::grinding:
       return limits.grind_limit;
     case JobState::retracting:
@@ -64,14 +68,17 @@ std::chrono::milliseconds limit_of(JobState state, const JobSettings& settings) 
 }  // namespace
 
 Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surroundings,
-         std::uint32_t last_sequence)
+         const EarlierRun& earlier)
     : settings_(settings),
       parts_(parts),
       surroundings_(std::move(surroundings)),
       commands_(parts.stage, settings_.limits),
       supervision_(settings_.limits),
-      parking_(commands_, settings_.limits) {
-  commands_.raise_to(last_sequence);
+      parking_(commands_, settings_.limits),
+      may_go_on_by_itself_(earlier.was_running &&
+                           settings.plan.after_restart == JobPlan::AfterRestart::go_on),
+      conditioning_(settings_.limits) {
+  commands_.raise_to(earlier.last_sequence);
   alarm_ = Alarm{"the daemon has just started: look at the rig, then acknowledge",
                  utc_text(surroundings_.wall_clock())};
 }
@@ -81,12 +88,21 @@ bool Job::at_rest() const {
 }
 
 void Job::tick(TimePoint now) {
+  look_at_lines(now);
   exchange(now);
   supervise(now);
   hear_operator(now);
+  go_on_by_itself(now);
   advance(now);
   publish();
   answer_operator();
+}
+
+/// Before the controller is asked: it may take its time-outs to answer, and an e-stop never waits.
+void Job::look_at_lines(TimePoint now) {
+  inputs_ = parts_.lines.read_inputs();
+  if (is_at_rest(state_) || state_ == JobState::resetting) return;
+  if (const auto cause = Supervision::line_cause(inputs_)) fault(*cause, now);
 }
 
 void Job::exchange(TimePoint now) {
@@ -101,7 +117,6 @@ void Job::exchange(TimePoint now) {
   } catch (const bridge::DeviceError& error) {
     if (!std::exchange(silence_logged_, true)) log_warning("stage", error.what());
   }
-  inputs_ = parts_.lines.read_inputs();
   supervision_.observe(fresh_, inputs_, now);
 }
 
@@ -111,6 +126,17 @@ void Job::supervise(TimePoint now) {
   if (const auto cause = supervision_.cause()) {
     fault(*cause, now);
     return;
+  }
+  if (is_layer_step(state_)) {
+    if (const auto cause = supervision_.temperature_cause()) {
+      if (settings_.limits.temperature_resumes) {
+        hold(HeldFor::temperature, *cause, now);
+      } else {
+        fault(*cause, now);
+        temperature_alarm_ = true;
+      }
+      return;
+    }
   }
   const bool past_homing = is_layer_step(state_) && state_ != JobState::storing;
   if (past_homing && fresh_ && !fresh_->interlocks.homed) {
@@ -136,9 +162,18 @@ void Job::advance(TimePoint now) {
                         std::to_string(limit.count()) + " ms: it " + waiting_for());
     }
     if (!fresh_) return;  // without a view of the rig nothing moves on
-    const std::optional<JobEvent> event = poll_step(now);
+    std::optional<JobEvent> event = poll_step(now);
     count_committed(now);
+    const bool only_waits = state_ == JobState::conditioning || state_ == JobState::held;
+    if (!event && only_waits && pause_requested_) event = JobEvent::pause;
     if (event) go(*event, now);
+  } catch (const DiskFull& error) {
+    count_committed(now);
+    if (settings_.limits.disk_resumes && next_state(state_, JobEvent::hold)) {
+      hold(HeldFor::disk, error.what(), now);
+    } else {
+      fault(error.what(), now);
+    }
   } catch (const std::exception& error) {
     count_committed(now);
     fault(error.what(), now);
@@ -161,7 +196,12 @@ std::optional<JobEvent> Job::poll_step(TimePoint now) {
       return poll_recovering();
     case JobState::homing:
       return poll_homing(now);
+    case JobState::conditioning:
+      return poll_conditioning(now);
+    case JobState::held:
+      return poll_held(now);
     case JobState::pausing:
+    case JobState::withdrawing:
     case JobState::aborting:
       return parking_.poll(*fresh_, now) ? std::optional(JobEvent::step_done) : std::nullopt;
     case JobState::finishing:
@@ -180,8 +220,11 @@ void Job::go(JobEvent event, TimePoint now) {
                            to_string(state_));
   }
   if (event == JobEvent::attempts_exhausted) {
-    note("alarm", "no frame of layer " + std::to_string(cycle_->layer()) +
-                      " was good enough in max_attempts attempts: look at it, then resume");
+    pause_reason_ = "no frame of layer " + std::to_string(cycle_->layer()) +
+                    " was good enough in " + std::to_string(settings_.ladder.max_attempts) +
+                    " attempts (the last: " + cycle_->last_rejection() +
+                    "): look at it, then resume";
+    note("alarm", pause_reason_);
   }
   // A pause that was asked for is taken as soon as the table allows it.
   if (pause_requested_) next = next_state(*next, JobEvent::pause).value_or(*next);
@@ -206,12 +249,23 @@ void Job::enter(JobState state, TimePoint now) {
     case JobState::preflight:
       begin_preflight();
       break;
+    case JobState::conditioning:
+      conditioning_.begin(now);
+      break;
+    case JobState::held:
+      conditioning_.begin(now);
+      disk_answer_ = {};
+      disk_asked_at_ = now;
+      break;
     case JobState::pausing:
+    case JobState::withdrawing:
     case JobState::finishing:
     case JobState::aborting:
       if (cycle_) cycle_->abandon(to_string(state));
-      lamp_and_tower(false);
-      parking_.begin(state == JobState::aborting ? Parking::From::motion : Parking::From::rest,
+      lamp_and_tower(state == JobState::withdrawing);
+      parking_.begin(state == JobState::aborting || state == JobState::withdrawing
+                         ? Parking::From::motion
+                         : Parking::From::rest,
                      now);
       volume_moved_ = now;
       if (state == JobState::finishing) feed_->finish(committed_);
@@ -246,6 +300,8 @@ void Job::fault(const std::string& cause, TimePoint now) {
   note("alarm", cause);
   state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
   start_up_latch_ = false;
+  temperature_alarm_ = false;
+  may_go_on_by_itself_ = false;
   start_after_reset_ = false;
   if (reset_answer_) answers_.push_back({std::move(*reset_answer_), {false, cause}});
   reset_answer_.reset();
@@ -257,6 +313,17 @@ void Job::fault(const std::string& cause, TimePoint now) {
   fault_park_until_ = now + settings_.limits.park_limit;
   if (cycle_) cycle_->abandon(cause);
   lamp_and_tower(true);
+}
+
+void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
+  log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
+  note("alarm", "held: " + cause);
+  held_for_ = what;
+  try {
+    go(JobEvent::hold, now);
+  } catch (const std::exception& error) {
+    fault(error.what(), now);
+  }
 }
 
 void Job::halt(TimePoint now) {
@@ -319,7 +386,16 @@ std::string Job::waiting_for() const {
       return "waits for the controller to be idle";
     case JobState::homing:
       return "waits for the axes to find their reference";
+    case JobState::conditioning:
+      return conditioning_.waiting_for();
+    case JobState::held:
+      return held_for_ == HeldFor::temperature
+                 ? conditioning_.waiting_for()
+                 : "waits for room on the disk: it has room for " +
+                       std::to_string(disk_left_layers_) + " layers and needs " +
+                       std::to_string(2 * settings_.limits.disk_reserve_layers);
     case JobState::pausing:
+    case JobState::withdrawing:
     case JobState::aborting:
       return parking_.waiting_for();
     case JobState::finishing: {
@@ -332,7 +408,8 @@ std::string Job::waiting_for() const {
       return fault_parking_ == FaultParking::none ? "waits for an operator to acknowledge"
                                                   : "waits for the rig to be parked";
     case JobState::paused:
-      return "waits for an operator to resume";
+      return "waits for an operator to resume" +
+             (pause_reason_.empty() ? std::string() : ": " + pause_reason_);
     default:
       return "";
   }
@@ -351,6 +428,7 @@ void Job::publish() {
   status.state = state_;
   status.waiting_for = waiting_for();
   status.pause_requested = pause_requested_;
+  status.pause_reason = pause_reason_;
   status.job = settings_.plan.name;
   status.sample = settings_.plan.sample.string();
   status.layers = settings_.plan.layers;

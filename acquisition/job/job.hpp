@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/job/conditioning.hpp"
+#include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/job_status.hpp"
@@ -40,12 +42,13 @@ struct JobParts {
 /// than the devices' response time-outs.
 ///
 /// It begins faulted, as a latch does. An operator opens the latch by `acknowledge`; when it is
-/// closed for no other reason than that the daemon has just started, `start` does both.
+/// closed for no other reason than that the daemon has just started, `start` does both. A job that
+/// was running when the daemon before this one ended goes on by itself, if the plan says so and the
+/// rig is as that daemon's end must have left it.
 class Job {
  public:
-  /// `last_sequence`: the highest command number that the sample's journal knows; 0 if none.
   Job(const JobSettings& settings, const JobParts& parts, Surroundings surroundings,
-      std::uint32_t last_sequence);
+      const EarlierRun& earlier);
 
   void tick(TimePoint now);
 
@@ -58,6 +61,7 @@ class Job {
   bool at_rest() const;
 
  private:
+  void look_at_lines(TimePoint now);
   void exchange(TimePoint now);
   void supervise(TimePoint now);
   void hear_operator(TimePoint now);
@@ -65,6 +69,8 @@ class Job {
   OperatorReply obey(OperatorCommand command, TimePoint now);
   OperatorReply begin(JobEvent event, TimePoint now);
   OperatorReply acknowledge(TimePoint now);
+  void go_on_by_itself(TimePoint now);
+  void wait_for_a_person(const std::string& why);
   void advance(TimePoint now);
   void count_committed(TimePoint now);
   void publish();
@@ -73,6 +79,8 @@ class Job {
   std::optional<JobEvent> poll_preflight();
   std::optional<JobEvent> poll_recovering();
   std::optional<JobEvent> poll_homing(TimePoint now);
+  std::optional<JobEvent> poll_conditioning(TimePoint now);
+  std::optional<JobEvent> poll_held(TimePoint now);
   std::optional<JobEvent> poll_finishing(TimePoint now);
   std::optional<JobEvent> poll_resetting(TimePoint now);
   void begin_preflight();
@@ -82,6 +90,10 @@ class Job {
   void go(JobEvent event, TimePoint now);
   void enter(JobState state, TimePoint now);
   void fault(const std::string& cause, TimePoint now);
+
+  /// Temperature or disk are not as they should be, and the configuration lets the job wait.
+  enum class HeldFor { temperature, disk };
+  void hold(HeldFor what, const std::string& cause, TimePoint now);
   void park_after_fault(TimePoint now);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);
@@ -97,7 +109,13 @@ class Job {
 
   JobState state_ = JobState::faulted;
   std::optional<Alarm> alarm_;
-  bool start_up_latch_ = true;  ///< faulted only because the daemon has just started
+  bool start_up_latch_ = true;      ///< faulted only because the daemon has just started
+  bool temperature_alarm_ = false;  ///< of the alarm's cause
+  bool may_go_on_by_itself_ = false;
+  bool went_on_by_itself_ = false;
+  std::optional<TimePoint> good_since_;  ///< the rig, while it may go on by itself
+  std::optional<TimePoint> first_tick_;
+  std::string pause_reason_;  ///< why it paused, when no operator asked for it
   bool start_after_reset_ = false;
   bool pause_requested_ = false;
   struct Answer {
@@ -124,6 +142,11 @@ class Job {
   std::future<PreflightFindings> inspection_;
   bridge::StageIdentity identity_;
   PreflightFindings findings_;
+  Conditioning conditioning_;
+  HeldFor held_for_ = HeldFor::temperature;
+  std::future<std::int64_t> disk_answer_;
+  TimePoint disk_asked_at_{};
+  std::int64_t disk_left_layers_ = 0;
   std::optional<RecordKeeper> keeper_;
   std::optional<VolumeFeed> feed_;
   std::optional<Continuation> continuation_;

@@ -7,6 +7,11 @@
 namespace biotomy::acquisition {
 namespace {
 
+/// Before a job goes on by itself, the rig must have been good for so long, within so long.
+constexpr std::chrono::seconds kLookFor{2};
+constexpr std::chrono::seconds kLookLimit{60};
+constexpr std::uint16_t kWatchdogFault = 3;
+
 OperatorReply accepted(std::string sentence) {
   return {true, std::move(sentence)};
 }
@@ -19,6 +24,7 @@ OperatorReply refused(std::string sentence) {
 
 void Job::hear_operator(TimePoint now) {
   for (OperatorDesk::Request& request : parts_.desk.take()) {
+    may_go_on_by_itself_ = false;  // there is a person
     OperatorReply reply;
     try {
       reply = obey(request.command, now);
@@ -110,10 +116,50 @@ OperatorReply Job::acknowledge(TimePoint now) {
   if (const auto cause = supervision_.standing_cause()) {
     return refused("the cause is still there: " + *cause);
   }
+  if (temperature_alarm_) {
+    if (const auto cause = supervision_.temperature_cause()) {
+      return refused("the cause is still there: " + *cause);
+    }
+  }
   if (!at_rest()) return refused("the rig is still being parked: wait a moment");
   if (!fresh_) return refused("the controller did not answer just now: try again");
   go(JobEvent::acknowledge, now);
   return accepted("the alarm is acknowledged");
+}
+
+void Job::go_on_by_itself(TimePoint now) {
+  if (!first_tick_) first_tick_ = now;
+  if (!may_go_on_by_itself_) return;
+  if (now - *first_tick_ > kLookLimit) {
+    wait_for_a_person("the rig was not ready within " +
+                      std::to_string(std::chrono::seconds(kLookLimit).count()) + " s");
+    return;
+  }
+  const bool ready = fresh_ && !supervision_.standing_cause() &&
+                     fresh_->state != bridge::ControllerState::busy &&
+                     fresh_->state != bridge::ControllerState::booting;
+  if (!ready) {
+    good_since_.reset();
+    return;
+  }
+  // That its watchdog tripped is what a daemon that ended had to cause. Any other fault is news.
+  if (fresh_->state == bridge::ControllerState::faulted && fresh_->fault_code != kWatchdogFault) {
+    wait_for_a_person(std::string("the controller is faulted: ") + fault_text(fresh_->fault_code));
+    return;
+  }
+  if (!good_since_) good_since_ = now;
+  if (now - *good_since_ < kLookFor) return;
+  may_go_on_by_itself_ = false;
+  const OperatorReply reply = acknowledge(now);
+  start_after_reset_ = went_on_by_itself_ = reply.accepted;
+  log_info("job", reply.accepted ? "goes on by itself after a restart" : reply.sentence);
+}
+
+void Job::wait_for_a_person(const std::string& why) {
+  may_go_on_by_itself_ = false;
+  alarm_->cause = "the job did not go on by itself after a restart, since " + why +
+                  ": look at the rig, then acknowledge";
+  log_warning("job", alarm_->cause);
 }
 
 }  // namespace biotomy::acquisition

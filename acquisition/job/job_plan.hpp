@@ -27,6 +27,8 @@ struct JobPlan {
   std::chrono::milliseconds clear_duration{1000};
   std::chrono::milliseconds settle_duration{500};
   std::chrono::milliseconds lamp_warm_up{200};
+  /// When the daemon starts and the job was running when the last one ended.
+  enum class AfterRestart { wait, go_on } after_restart = AfterRestart::wait;
 
   /// The feed position to which layer `layer`, from 1, is ground.
   bridge::Micrometres face_of(std::int64_t layer) const {

@@ -8,10 +8,10 @@ namespace {
 using enum JobState;
 using Event = JobEvent;
 
-constexpr std::array kStates = {idle,     preflight, recovering, homing,   grinding,  retracting,
-                                clearing, settling,  lighting,   focusing, capturing, assessing,
-                                storing,  pausing,   finishing,  aborting, paused,    done,
-                                aborted,  faulted,   resetting};
+constexpr std::array kStates = {
+    idle,      preflight, recovering, homing,    conditioning, grinding, retracting, clearing,
+    settling,  lighting,  focusing,   capturing, assessing,    storing,  pausing,    withdrawing,
+    finishing, aborting,  held,       paused,    done,         aborted,  faulted,    resetting};
 
 constexpr std::array kEvents = {Event::start,
                                 Event::step_done,
@@ -25,6 +25,8 @@ constexpr std::array kEvents = {Event::start,
                                 Event::clear_again,
                                 Event::attempts_exhausted,
                                 Event::layer_committed,
+                                Event::hold,
+                                Event::fit_again,
                                 Event::pause,
                                 Event::resume,
                                 Event::abort,
@@ -43,8 +45,9 @@ constexpr std::array kTransitions = {
     Transition{preflight, Event::step_done, recovering},
     Transition{recovering, Event::agreed, homing},
     Transition{recovering, Event::nothing_left, finishing},
-    Transition{homing, Event::grind_next, grinding},
-    Transition{homing, Event::photograph_next, retracting},
+    Transition{homing, Event::step_done, conditioning},
+    Transition{conditioning, Event::grind_next, grinding},
+    Transition{conditioning, Event::photograph_next, retracting},
 
     // A layer.
     Transition{grinding, Event::step_done, retracting},
@@ -62,10 +65,26 @@ constexpr std::array kTransitions = {
     Transition{storing, Event::layer_committed, grinding},
     Transition{storing, Event::nothing_left, finishing},
 
+    // Holding: temperature or disk are not as they should be, and the configuration lets the job go
+    // on by itself when they are again. It then begins as a resumed one does.
+    Transition{grinding, Event::hold, withdrawing},
+    Transition{retracting, Event::hold, withdrawing},
+    Transition{clearing, Event::hold, withdrawing},
+    Transition{settling, Event::hold, withdrawing},
+    Transition{lighting, Event::hold, withdrawing},
+    Transition{focusing, Event::hold, withdrawing},
+    Transition{capturing, Event::hold, withdrawing},
+    Transition{assessing, Event::hold, withdrawing},
+    Transition{storing, Event::hold, withdrawing},
+    Transition{withdrawing, Event::step_done, held},
+    Transition{held, Event::fit_again, preflight},
+    Transition{held, Event::pause, paused},
+
     // Pausing, between two steps. A frame in hand is judged and stored first: `assessing` and
     // `storing` do not pause.
     Transition{recovering, Event::pause, pausing},
     Transition{homing, Event::pause, pausing},
+    Transition{conditioning, Event::pause, pausing},
     Transition{grinding, Event::pause, pausing},
     Transition{retracting, Event::pause, pausing},
     Transition{clearing, Event::pause, pausing},
@@ -80,6 +99,7 @@ constexpr std::array kTransitions = {
     Transition{preflight, Event::abort, aborting},
     Transition{recovering, Event::abort, aborting},
     Transition{homing, Event::abort, aborting},
+    Transition{conditioning, Event::abort, aborting},
     Transition{grinding, Event::abort, aborting},
     Transition{retracting, Event::abort, aborting},
     Transition{clearing, Event::abort, aborting},
@@ -90,6 +110,8 @@ constexpr std::array kTransitions = {
     Transition{assessing, Event::abort, aborting},
     Transition{storing, Event::abort, aborting},
     Transition{pausing, Event::abort, aborting},
+    Transition{withdrawing, Event::abort, aborting},
+    Transition{held, Event::abort, aborting},
     Transition{finishing, Event::abort, aborting},
     Transition{paused, Event::abort, aborting},
     Transition{aborting, Event::step_done, aborted},
@@ -98,6 +120,7 @@ constexpr std::array kTransitions = {
     Transition{preflight, Event::alarm, faulted},
     Transition{recovering, Event::alarm, faulted},
     Transition{homing, Event::alarm, faulted},
+    Transition{conditioning, Event::alarm, faulted},
     Transition{grinding, Event::alarm, faulted},
     Transition{retracting, Event::alarm, faulted},
     Transition{clearing, Event::alarm, faulted},
@@ -108,6 +131,8 @@ constexpr std::array kTransitions = {
     Transition{assessing, Event::alarm, faulted},
     Transition{storing, Event::alarm, faulted},
     Transition{pausing, Event::alarm, faulted},
+    Transition{withdrawing, Event::alarm, faulted},
+    Transition{held, Event::alarm, faulted},
     Transition{finishing, Event::alarm, faulted},
     Transition{aborting, Event::alarm, faulted},
     Transition{resetting, Event::alarm, faulted},
@@ -166,6 +191,8 @@ const char* to_string(JobState state) {
       return "recovering";
     case homing:
       return "homing";
+    case conditioning:
+      return "conditioning";
     case grinding:
       return "grinding";
     case retracting:
@@ -186,10 +213,14 @@ const char* to_string(JobState state) {
       return "storing";
     case pausing:
       return "pausing";
+    case withdrawing:
+      return "withdrawing";
     case finishing:
       return "finishing";
     case aborting:
       return "aborting";
+    case held:
+      return "held";
     case paused:
       return "paused";
     case done:
@@ -230,6 +261,10 @@ const char* to_string(JobEvent event) {
       return "attempts_exhausted";
     case Event::layer_committed:
       return "layer_committed";
+    case Event::hold:
+      return "hold";
+    case Event::fit_again:
+      return "fit_again";
     case Event::pause:
       return "pause";
     case Event::resume:

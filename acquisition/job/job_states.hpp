@@ -12,6 +12,7 @@ enum class JobState {
   preflight,   ///< everything is asked whether it is fit to run
   recovering,  ///< journal and controller are compared: where does the work go on?
   homing,
+  conditioning,  ///< the block is not yet, or not any more, as cold as it must be
   grinding,
   retracting,
   clearing,
@@ -21,9 +22,11 @@ enum class JobState {
   capturing,
   assessing,
   storing,
-  pausing,    ///< the wheel is being parked for a pause
-  finishing,  ///< the wheel is being parked, the volume completed
-  aborting,   ///< the wheel is being stopped and parked for good
+  pausing,      ///< the wheel is being parked for a pause
+  withdrawing,  ///< the wheel is being stopped and parked until the rig is fit to run again
+  finishing,    ///< the wheel is being parked, the volume completed
+  aborting,     ///< the wheel is being stopped and parked for good
+  held,         ///< parked; goes on by itself once temperature or disk allow it
   paused,
   done,
   aborted,
@@ -45,6 +48,8 @@ enum class JobEvent {
   clear_again,
   attempts_exhausted,  ///< no frame was good enough, and a person is to decide
   layer_committed,
+  hold,       ///< the rig is not fit to run just now, and may go on by itself later
+  fit_again,  ///< what it was held for is over
   pause,
   resume,
   abort,

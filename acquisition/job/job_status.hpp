@@ -24,6 +24,7 @@ struct JobStatus {
   JobState state = JobState::faulted;
   std::string waiting_for;  ///< what the step waits for, in words
   bool pause_requested = false;
+  std::string pause_reason;  ///< why it pauses; empty when an operator asked for it
   std::string job;
   std::string sample;
   std::int64_t layers = 0;     ///< of the whole job

@@ -11,6 +11,9 @@ namespace biotomy::acquisition {
 void Job::begin_preflight() {
   job_begun_ = true;
   alarm_.reset();
+  pause_reason_.clear();
+  supervision_.forget_positions();
+  lamp_and_tower(false);
   continuation_.reset();
   run_began_.reset();
   cycle_.reset();
@@ -37,7 +40,10 @@ std::optional<JobEvent> Job::poll_preflight() {
                                                                 settings_.store.volume_layout));
   committed_ = findings_.journal.last_committed;
   feed_->offer(committed_);
-  note("operator", "begun; " + std::to_string(committed_) + " layers are committed");
+  note("operator",
+       std::string(std::exchange(went_on_by_itself_, false) ? "goes on by itself after a restart; "
+                                                            : "begun; ") +
+           std::to_string(committed_) + " layers are committed");
   return JobEvent::step_done;
 }
 
@@ -78,7 +84,29 @@ std::optional<JobEvent> Job::poll_homing(TimePoint now) {
       throw StepFailure("the controller finished homing but says that it is not homed");
     }
   }
+  return JobEvent::step_done;
+}
+
+std::optional<JobEvent> Job::poll_conditioning(TimePoint now) {
+  if (!conditioning_.poll(*fresh_, now)) return std::nullopt;
   return continuation_->ground ? JobEvent::photograph_next : JobEvent::grind_next;
+}
+
+std::optional<JobEvent> Job::poll_held(TimePoint now) {
+  if (held_for_ == HeldFor::temperature) {
+    return conditioning_.poll(*fresh_, now) ? std::optional(JobEvent::fit_again) : std::nullopt;
+  }
+  if (disk_answer_.valid()) {
+    if (!is_ready(disk_answer_)) return std::nullopt;
+    disk_left_layers_ = disk_answer_.get();
+    // Twice the reserve, so that the job does not come back for a single layer.
+    if (disk_left_layers_ >= 2 * settings_.limits.disk_reserve_layers) return JobEvent::fit_again;
+  } else if (now - disk_asked_at_ >= settings_.limits.disk_look) {
+    disk_asked_at_ = now;
+    disk_answer_ =
+        keeper_->ask([](const SampleRecords& records) { return records.disk_left_layers(); });
+  }
+  return std::nullopt;
 }
 
 std::optional<JobEvent> Job::poll_finishing(TimePoint now) {

@@ -134,6 +134,7 @@ std::optional<JobEvent> LayerCycle::judge() {
 
   log_warning("quality", "layer " + std::to_string(layer_) + ", attempt " +
                              std::to_string(attempt_) + ": " + in_hand_->assessment.reason);
+  last_rejection_ = in_hand_->assessment.reason;
   const std::optional<JobEvent> next = after_rejection(climbed_, settings_.ladder);
   const bool right_size = in_hand_->assessment.slug != "wrong-size";
   if (right_size &&
@@ -180,9 +181,9 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
                       std::to_string(stored.bytes) + " bytes");
   if (layer_ == settings_.plan.layers) return JobEvent::nothing_left;
   if (disk_left_layers_ < settings_.limits.disk_reserve_layers) {
-    throw StepFailure("the disk has room for " + std::to_string(disk_left_layers_) +
-                      " more layers, less than disk_reserve_layers (" +
-                      std::to_string(settings_.limits.disk_reserve_layers) + "): make room");
+    throw DiskFull("the disk has room for " + std::to_string(disk_left_layers_) +
+                   " more layers, less than disk_reserve_layers (" +
+                   std::to_string(settings_.limits.disk_reserve_layers) + "): make room");
   }
   ++layer_;
   attempt_ = 0;

@@ -63,6 +63,7 @@ class LayerCycle {
   std::int64_t layer() const { return layer_; }  ///< the one in work
   int attempt() const { return attempt_; }       ///< of it; 0 before its first frame
   std::int64_t disk_left_layers() const { return disk_left_layers_; }
+  const std::string& last_rejection() const { return last_rejection_; }
   const std::optional<CommittedLayer>& last_committed() const { return last_committed_; }
 
  private:
@@ -97,6 +98,7 @@ class LayerCycle {
   std::shared_ptr<JudgedFrame> best_rejected_;
   std::future<Assessment> assessment_;
   std::future<Stored> stored_;
+  std::string last_rejection_;  ///< why the last frame that was rejected was not good enough
   std::optional<CommittedLayer> last_committed_;
 };
 

@@ -2,10 +2,15 @@
 
 #include <sstream>
 
+#include "acquisition/job/capture.hpp"
 #include "acquisition/job/step_failure.hpp"
+#include "acquisition/records/utc_time.hpp"
 
 namespace biotomy::acquisition {
 namespace {
+
+constexpr std::chrono::year_month_day kProgramYear{std::chrono::year(2026) / 1 / 1};
+constexpr std::chrono::minutes kClockTolerance{5};
 
 bool inside(bridge::Micrometres position, const bridge::AxisLimits& limits) {
   return position >= limits.minimum && position <= limits.maximum;
@@ -18,6 +23,40 @@ std::string outside_text(const char* what, bridge::Micrometres position, const c
        << ", outside its limits " << limits.minimum.value << " to " << limits.maximum.value
        << " µm: mend the configuration";
   return text.str();
+}
+
+/// A trial frame, whatever it shows: better now than with a block that is ground.
+void check_frame(const bridge::Frame& frame, const bridge::CameraDescription& camera,
+                 const JobPlan& plan) {
+  if (frame.image.cols != camera.width || frame.image.rows != camera.height) {
+    throw StepFailure("the camera says that its frames have " + std::to_string(camera.width) +
+                      " × " + std::to_string(camera.height) + " pixels and gave one of " +
+                      std::to_string(frame.image.cols) + " × " + std::to_string(frame.image.rows) +
+                      ": look at its settings");
+  }
+  const int bits = frame.image.depth() == CV_16U ? 16 : 8;
+  if (bits != plan.bits) {
+    throw StepFailure("the camera gives " + std::to_string(bits) +
+                      " bits of each colour and job.bits is " + std::to_string(plan.bits) +
+                      ": make them agree");
+  }
+}
+
+/// Records would have wrong times for ever: a board without a battery begins in 1970.
+void check_clock(std::chrono::system_clock::time_point now) {
+  if (now < std::chrono::sys_days(kProgramYear)) {
+    throw StepFailure("the computer's clock says " + utc_text(now) +
+                      ", which cannot be: set it, or wait until the network has set it");
+  }
+}
+
+void check_clock_against(const std::string& last_event_at,
+                         std::chrono::system_clock::time_point now) {
+  // Both are ISO 8601 in UTC: the order of the texts is the order of the times.
+  if (last_event_at.empty() || utc_text(now + kClockTolerance) >= last_event_at) return;
+  throw StepFailure("the computer's clock says " + utc_text(now) +
+                    " and the journal has a record of " + last_event_at +
+                    ": set the clock before going on");
 }
 
 }  // namespace
@@ -34,8 +73,18 @@ std::optional<std::string> stage_complaint(const JobSettings& settings,
       return outside_text(("layer " + std::to_string(layer)).c_str(), face, "feed", stage.feed);
     }
   }
+  if (!inside({0.0}, stage.traverse)) {
+    return outside_text("the parked block", {0.0}, "traverse", stage.traverse);
+  }
+  // The column follows the face: where the focus begins and where it will have got to.
+  const bridge::Micrometres way =
+      settings.plan.face_of(settings.plan.layers) - settings.plan.face_of(1);
   if (!inside(settings.focus.start, stage.column)) {
     return outside_text("focus.start_um", settings.focus.start, "column", stage.column);
+  }
+  if (!inside(settings.focus.start + way, stage.column)) {
+    return outside_text("the focus of the last layer", settings.focus.start + way, "column",
+                        stage.column);
   }
   return std::nullopt;
 }
@@ -45,17 +94,26 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   PreflightFindings findings;
   findings.camera = camera.describe();
   camera.apply(settings.camera.settings);
+  check_frame(capture(camera, settings.camera.capture_time_out), findings.camera, settings.plan);
+  check_clock(surroundings.wall_clock());
   findings.records =
       std::make_shared<SampleRecords>(settings.plan, settings.store, findings.camera, surroundings);
   findings.journal = findings.records->summary();
   findings.disk_left_layers = findings.records->disk_left_layers();
 
+  check_clock_against(findings.journal.last_event_at, surroundings.wall_clock());
+
   const std::int64_t layers_to_do = settings.plan.layers - findings.journal.last_committed;
   const std::int64_t reserve = settings.limits.disk_reserve_layers;
   if (layers_to_do > 0 && findings.disk_left_layers < reserve) {
-    throw StepFailure("the disk has room for " + std::to_string(findings.disk_left_layers) +
-                      " more layers, less than disk_reserve_layers (" + std::to_string(reserve) +
-                      "): make room");
+    throw DiskFull("the disk has room for " + std::to_string(findings.disk_left_layers) +
+                   " more layers, less than disk_reserve_layers (" + std::to_string(reserve) +
+                   "): make room");
+  }
+  if (settings.limits.disk_for_whole_job && findings.disk_left_layers < layers_to_do) {
+    throw DiskFull("the disk has room for " + std::to_string(findings.disk_left_layers) +
+                   " more layers and the job needs " + std::to_string(layers_to_do) +
+                   ": make room, or set safety.disk_for_whole_job to false");
   }
   return findings;
 }

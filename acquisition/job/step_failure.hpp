@@ -14,4 +14,10 @@ class StepFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is not enough room on the disk for the layers to come.
+class DiskFull : public StepFailure {
+ public:
+  using StepFailure::StepFailure;
+};
+
 }  // namespace biotomy::acquisition

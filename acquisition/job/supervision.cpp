@@ -6,9 +6,9 @@
 namespace biotomy::acquisition {
 namespace {
 
-std::string degrees(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f °C", value);
+std::string with_unit(double value, const char* unit) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
   return text.data();
 }
 
@@ -18,7 +18,19 @@ std::string milliseconds(std::chrono::milliseconds value) {
 
 }  // namespace
 
-Supervision::Supervision(const SafetyLimits& limits) : limits_(limits) {}
+Supervision::Supervision(const SafetyLimits& limits) : limits_(limits), motion_(limits) {}
+
+void Supervision::Excess::observe(bool outside, TimePoint now) {
+  if (!outside) {
+    since.reset();
+  } else if (!since) {
+    since = now;
+  }
+}
+
+bool Supervision::Excess::lasts(std::chrono::milliseconds limit, TimePoint now) const {
+  return since && now - *since >= limit;
+}
 
 void Supervision::observe(const std::optional<bridge::StageStatus>& status,
                           const bridge::SafetyInputs& inputs, TimePoint now) {
@@ -30,13 +42,12 @@ void Supervision::observe(const std::optional<bridge::StageStatus>& status,
   if (!last_exchange_ || status->controller_heartbeat != status_.controller_heartbeat) {
     heartbeat_changed_ = now;
   }
-  const bool inside = status->block_temperature_c >= limits_.block_temperature_minimum_c &&
-                      status->block_temperature_c <= limits_.block_temperature_maximum_c;
-  if (inside) {
-    outside_window_since_.reset();
-  } else if (!outside_window_since_) {
-    outside_window_since_ = now;
-  }
+  temperature_.observe(status->block_temperature_c < limits_.block_temperature_minimum_c ||
+                           status->block_temperature_c > limits_.block_temperature_maximum_c,
+                       now);
+  load_.observe(status->spindle_load_percent > limits_.spindle_load_maximum_percent, now);
+  vibration_.observe(status->vibration_mm_s > limits_.vibration_maximum_mm_s, now);
+  motion_.observe(*status, now);
   last_exchange_ = now;
   status_ = *status;
 }
@@ -51,17 +62,23 @@ std::optional<std::string> Supervision::cause() const {
       return "the controller's watchdog tripped: it missed the daemon's heartbeat";
     }
   }
-  return condition_cause();
+  if (auto cause = link_cause()) return cause;
+  return machine_cause();
 }
 
 std::optional<std::string> Supervision::standing_cause() const {
   if (auto cause = interlock_cause()) return cause;
-  return condition_cause();
+  return link_cause();
+}
+
+std::optional<std::string> Supervision::line_cause(const bridge::SafetyInputs& inputs) {
+  if (inputs.estop_pressed) return "the e-stop is pressed (line)";
+  if (inputs.door_open) return "the door is open (line)";
+  return std::nullopt;
 }
 
 std::optional<std::string> Supervision::interlock_cause() const {
-  if (inputs_.estop_pressed) return "the e-stop is pressed (line)";
-  if (inputs_.door_open) return "the door is open (line)";
+  if (auto cause = line_cause(inputs_)) return cause;
   if (last_exchange_ && status_.interlocks.estop_pressed) {
     return "the e-stop is pressed (controller)";
   }
@@ -69,23 +86,36 @@ std::optional<std::string> Supervision::interlock_cause() const {
   return std::nullopt;
 }
 
-std::optional<std::string> Supervision::condition_cause() const {
+std::optional<std::string> Supervision::link_cause() const {
   const std::optional<TimePoint> heard = last_exchange_ ? last_exchange_ : first_observation_;
   if (!heard || now_ - *heard > limits_.link_lost) {
     return "the controller does not answer since more than " + milliseconds(limits_.link_lost) +
            ": check its power and the link";
   }
-  if (!last_exchange_) return std::nullopt;
-  if (*last_exchange_ - *heartbeat_changed_ > limits_.controller_silent) {
+  if (last_exchange_ && *last_exchange_ - *heartbeat_changed_ > limits_.controller_silent) {
     return "the controller's heartbeat stands still since more than " +
            milliseconds(limits_.controller_silent) + ": its program does not run";
   }
-  if (outside_window_since_ && now_ - *outside_window_since_ >= limits_.temperature_delay) {
-    return "the block is at " + degrees(status_.block_temperature_c) + ", outside " +
-           degrees(limits_.block_temperature_minimum_c) + " to " +
-           degrees(limits_.block_temperature_maximum_c);
-  }
   return std::nullopt;
+}
+
+std::optional<std::string> Supervision::machine_cause() const {
+  if (load_.lasts(limits_.spindle_load_delay, now_)) {
+    return "the spindle's load is " + with_unit(status_.spindle_load_percent, "%") + ", above " +
+           with_unit(limits_.spindle_load_maximum_percent, "%") + ": look at the wheel";
+  }
+  if (vibration_.lasts(limits_.vibration_delay, now_)) {
+    return "the spindle vibrates by " + with_unit(status_.vibration_mm_s, "mm/s") + ", above " +
+           with_unit(limits_.vibration_maximum_mm_s, "mm/s") + ": look at the wheel";
+  }
+  return motion_.cause();
+}
+
+std::optional<std::string> Supervision::temperature_cause() const {
+  if (!temperature_.lasts(limits_.temperature_delay, now_)) return std::nullopt;
+  return "the block is at " + with_unit(status_.block_temperature_c, "°C") + ", outside " +
+         with_unit(limits_.block_temperature_minimum_c, "°C") + " to " +
+         with_unit(limits_.block_temperature_maximum_c, "°C");
 }
 
 const char* fault_text(std::uint16_t fault_code) {

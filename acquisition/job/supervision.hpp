@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "acquisition/job/motion_watch.hpp"
 #include "acquisition/job/safety_limits.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "firmware_bridge/lines/lines.hpp"
@@ -12,7 +13,8 @@ namespace biotomy::acquisition {
 
 /// Watches the rig at every tick and says in one sentence why the wheel must stop. It sees
 /// everything twice where there are two ways to see it (lines and controller), and progress, not
-/// only limits: a heartbeat that does not beat is a controller whose program stands still.
+/// only limits: a heartbeat that does not beat is a controller whose program stands still, an axis
+/// that does not come nearer to its target is stuck.
 class Supervision {
  public:
   explicit Supervision(const SafetyLimits& limits);
@@ -21,15 +23,32 @@ class Supervision {
   void observe(const std::optional<bridge::StageStatus>& status, const bridge::SafetyInputs& inputs,
                TimePoint now);
 
-  /// Why the wheel must stop now; nothing when all is well.
+  /// Why the wheel must stop now, whatever the step is; nothing when all is well.
   std::optional<std::string> cause() const;
+
+  /// Why the wheel must stop by the lines alone, before the controller is asked.
+  static std::optional<std::string> line_cause(const bridge::SafetyInputs& inputs);
+
+  /// That the block is outside its window of temperature for too long to work on it.
+  std::optional<std::string> temperature_cause() const;
 
   /// Why the latch must not be opened: as `cause`, but without what resetting the controller cures.
   std::optional<std::string> standing_cause() const;
 
+  /// The machine was left to itself or to a person: where its axes were says nothing any more.
+  void forget_positions() { motion_.forget(); }
+
  private:
+  /// Since when a value is outside its limits.
+  struct Excess {
+    std::optional<TimePoint> since;
+    void observe(bool outside, TimePoint now);
+    bool lasts(std::chrono::milliseconds limit, TimePoint now) const;
+  };
+
   std::optional<std::string> interlock_cause() const;
-  std::optional<std::string> condition_cause() const;
+  std::optional<std::string> link_cause() const;
+  std::optional<std::string> machine_cause() const;
 
   SafetyLimits limits_;
   bridge::SafetyInputs inputs_;
@@ -37,7 +56,10 @@ class Supervision {
   std::optional<TimePoint> last_exchange_;
   std::optional<TimePoint> first_observation_;
   std::optional<TimePoint> heartbeat_changed_;
-  std::optional<TimePoint> outside_window_since_;
+  Excess temperature_;
+  Excess load_;
+  Excess vibration_;
+  MotionWatch motion_;
   TimePoint now_{};
 };
 

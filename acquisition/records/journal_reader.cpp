@@ -90,4 +90,15 @@ std::uint32_t JournalReader::last_sequence() const {
   });
 }
 
+std::string JournalReader::last_state() const {
+  return with_journal(state_->path, [&] {
+    return state_->database
+        .execAndGet(
+            "SELECT coalesce((SELECT iif(kind = 'alarm', 'faulted', state) FROM events WHERE kind "
+            "IN ('state', 'alarm') "
+            "ORDER BY id DESC LIMIT 1), '')")
+        .getString();
+  });
+}
+
 }  // namespace biotomy::acquisition

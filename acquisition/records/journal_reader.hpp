@@ -26,6 +26,11 @@ class JournalReader {
   /// The highest number of a command in it; 0 if none.
   std::uint32_t last_sequence() const;
 
+  /// The state that the job entered last, by its name: "faulted" after an alarm, empty if there is
+  /// none. The steps of a layer are not written down one by one: in them it is the state before the
+  /// first.
+  std::string last_state() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

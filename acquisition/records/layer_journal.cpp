@@ -223,6 +223,11 @@ JournalSummary LayerJournal::summary() const {
                                                 bridge::to_string(bridge::CommandResult::done)};
     }
 
+    summary.last_event_at =
+        state_->database
+            .execAndGet("SELECT coalesce((SELECT at FROM events ORDER BY id DESC LIMIT 1), '')")
+            .getString();
+
     SQLite::Statement focus(state_->database,
                             "SELECT layer, why, column_um, sharpness FROM focus_sweeps "
                             "WHERE found = 1 ORDER BY id DESC LIMIT 1");

@@ -177,6 +177,15 @@ JobPlan read_job(const CheckedTable& table) {
                                  "waited for vibrations to settle", 0, 3600000);
   job.lamp_warm_up = duration(table, "lamp_warm_up_ms", job.lamp_warm_up,
                               "waited after the lamp is switched on", 0, 3600000);
+  const std::string after_restart = table.get(TextKey{
+      .name = "after_restart",
+      .fallback = "wait",
+      .choices = {"wait", "go-on"},
+      .description = "a daemon that starts and finds that the job was running when the last one "
+                     "ended (a crash, a power cut) waits for an operator, or goes on by itself if "
+                     "journal and controller agree"});
+  job.after_restart =
+      after_restart == "go-on" ? JobPlan::AfterRestart::go_on : JobPlan::AfterRestart::wait;
   return job;
 }
 

@@ -10,8 +10,8 @@
 
 #include "acquisition/job/control_loop.hpp"
 #include "acquisition/job/job.hpp"
+#include "acquisition/job/state_diagram.hpp"
 #include "acquisition/log.hpp"
-#include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/sample_lock.hpp"
 #include "acquisition/service/access.hpp"
 #include "acquisition/service/api.hpp"
@@ -50,10 +50,6 @@ class StopSignals {
   sigset_t set_{};
 };
 
-std::uint32_t last_sequence(const std::filesystem::path& journal) {
-  return std::filesystem::exists(journal) ? JournalReader(journal).last_sequence() : 0;
-}
-
 int run(const Configuration& configuration) {
   const StopSignals signals;
   const JobPlan& plan = configuration.job.plan;
@@ -69,7 +65,7 @@ int run(const Configuration& configuration) {
   OperatorDesk desk;
   StatusBoard board;
   Job job(configuration.job, {*stage, *lines, *camera, worker, volume_worker, desk, board},
-          real_surroundings(), last_sequence(journal));
+          real_surroundings(), read_earlier_run(journal));
   const Api api(board, desk, journal, token);
   const HttpServer server(api, configuration.service.host, configuration.service.port);
 
@@ -112,14 +108,21 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", BIOTOMY_VERSION);
   std::string file;
   bool reference = false;
+  bool diagram = false;
   auto* config = app.add_option("--config", file, "the configuration, rig.toml");
   app.add_flag("--configuration-reference", reference,
                "print every key of the configuration (Markdown) and end")
+      ->excludes(config);
+  app.add_flag("--state-diagram", diagram, "print the states of a job (Markdown) and end")
       ->excludes(config);
   try {
     app.parse(argc, argv);
     if (reference) {
       std::cout << configuration_reference();
+      return 0;
+    }
+    if (diagram) {
+      std::cout << state_diagram();
       return 0;
     }
     if (file.empty()) throw CLI::RequiredError("--config");

@@ -20,6 +20,22 @@ SafetyLimits read_safety(const CheckedTable& table) {
                         .description = "refuse a controller that does not watch the daemon"});
   safety.position_tolerance = length(table, "position_tolerance_um", safety.position_tolerance,
                                      "an axis further from where it should be stops the rig");
+  safety.axis_stall =
+      duration(table, "axis_stall_ms", safety.axis_stall,
+               "an axis that does not move for so long on its way stops the rig", 100);
+  safety.standstill =
+      duration(table, "standstill_ms", safety.standstill,
+               "a command during which nothing at all moves for so long stops the rig", 100);
+  safety.spindle_load_maximum_percent =
+      number(table, "spindle_load_maximum_percent", safety.spindle_load_maximum_percent, "%", 1.0,
+             1000.0, "a higher load of the spindle stops the rig");
+  safety.spindle_load_delay = duration(table, "spindle_load_delay_ms", safety.spindle_load_delay,
+                                       "above it for so long", 0);
+  safety.vibration_maximum_mm_s =
+      number(table, "vibration_maximum_mm_s", safety.vibration_maximum_mm_s, "mm/s", 0.01, 1000.0,
+             "a stronger vibration of the spindle stops the rig");
+  safety.vibration_delay =
+      duration(table, "vibration_delay_ms", safety.vibration_delay, "above it for so long", 0);
   safety.block_temperature_minimum_c =
       number(table, "block_temperature_minimum_c", safety.block_temperature_minimum_c, "°C",
              -273.15, 200.0, "a colder block stops the rig");
@@ -31,9 +47,35 @@ SafetyLimits read_safety(const CheckedTable& table) {
   }
   safety.temperature_delay = duration(table, "temperature_delay_ms", safety.temperature_delay,
                                       "outside its window for so long", 0);
+  safety.temperature_resumes =
+      table.get(FlagKey{.name = "temperature_resumes",
+                        .fallback = safety.temperature_resumes,
+                        .description = "a block outside its window holds the job, which goes on by "
+                                       "itself once it is inside; if not, an operator is needed"});
+  safety.conditioning_progress_c =
+      number(table, "conditioning_progress_c", safety.conditioning_progress_c, "°C", 0.0, 100.0,
+             "while the job waits for the block's temperature, it must come nearer by so much");
+  safety.conditioning_progress_time =
+      duration(table, "conditioning_progress_ms", safety.conditioning_progress_time,
+               "within so long, or the rig stops");
+  safety.conditioning_limit =
+      duration(table, "conditioning_limit_ms", safety.conditioning_limit, "limit of the step");
   safety.disk_reserve_layers =
       count(table, "disk_reserve_layers", safety.disk_reserve_layers, 1, 1000000,
             "with room for fewer layers on the disk, the rig stops");
+  safety.disk_for_whole_job = table.get(
+      FlagKey{.name = "disk_for_whole_job",
+              .fallback = safety.disk_for_whole_job,
+              .description = "refuse to begin a job for which the disk has not enough room"});
+  safety.disk_resumes =
+      table.get(FlagKey{.name = "disk_resumes",
+                        .fallback = safety.disk_resumes,
+                        .description = "a disk that gets full holds the job, which goes on by "
+                                       "itself once there is room; if not, an operator is needed"});
+  safety.disk_look = duration(table, "disk_look_ms", safety.disk_look,
+                              "while a job is held for it, the disk is asked so often");
+  safety.held_limit = duration(table, "held_limit_ms", safety.held_limit,
+                               "a job that is held for longer stops with an alarm");
   safety.command_start = duration(table, "command_start_ms", safety.command_start,
                                   "within so long the controller starts a command");
   safety.read_back =

@@ -35,6 +35,7 @@ bridge::StageIdentity FakeStage::identify() {
 }
 
 bridge::StageStatus FakeStage::exchange(std::uint16_t) {
+  on_exchange();
   if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (!heart_stopped) ++status.controller_heartbeat;
   if (under_way_ && --exchanges_left_ <= 0) finish();

@@ -39,6 +39,8 @@ struct FakeStage : bridge::Stage {
   /// Called when a command arrives, before it is begun.
   std::function<void(const bridge::StageCommand&)> on_command = [](const auto&) {};
 
+  std::function<void()> on_exchange = [] {};  ///< called as an exchange begins
+
   struct Executed {
     std::uint32_t sequence;
     bridge::StageCommand command;

@@ -20,10 +20,13 @@ JobBench::JobBench() {
   settings.plan.clear_duration = std::chrono::milliseconds(50);
   settings.plan.settle_duration = std::chrono::milliseconds(40);
   settings.plan.lamp_warm_up = std::chrono::milliseconds(40);
+  // The fake's axes jump at the end of a command: until then they stand still.
+  settings.limits.axis_stall = settings.limits.standstill = std::chrono::hours(24);
   settings.focus.start = {590.0};
   surroundings.wall_clock = [this] {
-    return std::chrono::system_clock::time_point(
-        std::chrono::duration_cast<std::chrono::system_clock::duration>(now.time_since_epoch()));
+    return wall_clock_start + std::chrono::system_clock::duration(
+                                  std::chrono::duration_cast<std::chrono::system_clock::duration>(
+                                      now.time_since_epoch()));
   };
   surroundings.free_bytes = [this](const auto&) { return free_bytes; };
   surroundings.write_layer = [this](const std::filesystem::path& path, const cv::Mat& image,
@@ -43,11 +46,11 @@ JobBench::JobBench() {
   start_daemon();
 }
 
-void JobBench::start_daemon(std::uint32_t last_sequence) {
+void JobBench::start_daemon() {
   job.reset();
-  job = std::make_unique<Job>(settings,
-                              JobParts{stage, lines, camera, worker, volume_worker, desk, board},
-                              surroundings, last_sequence);
+  job = std::make_unique<Job>(
+      settings, JobParts{stage, lines, camera, worker, volume_worker, desk, board}, surroundings,
+      read_earlier_run(settings.plan.sample / "journal.sqlite"));
   tick();
 }
 

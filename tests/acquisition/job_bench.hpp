@@ -35,11 +35,13 @@ struct JobBench {
 
   std::unique_ptr<acquisition::Job> job;
   std::chrono::steady_clock::time_point now{};
+  std::chrono::system_clock::time_point wall_clock_start =
+      std::chrono::sys_days(std::chrono::year(2026) / 11 / 1);
 
   JobBench();
 
   /// The daemon starts (again): a new job object on the same rig and sample.
-  void start_daemon(std::uint32_t last_sequence = 0);
+  void start_daemon();
 
   void tick(int times = 1);
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/job/job.hpp"
-#include "acquisition/records/journal_reader.hpp"
 #include "tests/acquisition/job_bench.hpp"
 
 namespace biotomy::tests {
@@ -15,10 +14,6 @@ using bridge::StageAction;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::uint32_t journalled_sequence(const JobBench& bench) {
-  return JournalReader(bench.settings.plan.sample / "journal.sqlite").last_sequence();
-}
-
 /// The daemon dies in the state, starts again, and the operator starts the job.
 void die_in(JobBench& bench, JobState state, int layer) {
   bench.start_job();
@@ -27,7 +22,7 @@ void die_in(JobBench& bench, JobState state, int layer) {
 }
 
 void restart(JobBench& bench) {
-  bench.start_daemon(journalled_sequence(bench));
+  bench.start_daemon();
   bench.tick(20);  // what the controller had begun comes to its end
   bench.start_job();
 }

@@ -103,6 +103,55 @@ TEST(JobSafety, StopsWhenTheFeedIsNotWhereItShouldBe) {
               "the feed is at 1030.0 µm and should be at 1000.0 µm");
 }
 
+TEST(JobSafety, StopsWhenAnAxisStandsStillOnItsWay) {
+  JobBench bench;
+  bench.settings.limits.axis_stall = std::chrono::milliseconds(2000);
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.stage.exchanges_per_command = 1000000;
+  ASSERT_TRUE(bench.reach(JobState::faulted, 200));
+  EXPECT_THAT(bench.alarm(), HasSubstr("stands still at"));
+}
+
+TEST(JobSafety, StopsWhenTheColumnSinksBetweenTwoMoves) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::assessing));
+  bench.stage.status.column.value -= 20.0;
+  ASSERT_TRUE(bench.reach(JobState::faulted, 3));
+  EXPECT_THAT(bench.alarm(), HasSubstr("the column moves by itself"));
+}
+
+TEST(JobSafety, StopsForAnOverloadedSpindleAndForOneThatShakes) {
+  expect_stop(
+      [](JobBench& bench) {
+        bench.stage.status.spindle_load_percent = 99.0;
+        bench.stage.exchanges_per_command = 1000000;
+      },
+      "the spindle's load is 99.0 %");
+  expect_stop(
+      [](JobBench& bench) {
+        bench.stage.status.vibration_mm_s = 12.0;
+        bench.stage.exchanges_per_command = 1000000;
+      },
+      "the spindle vibrates by 12.0 mm/s");
+}
+
+TEST(JobSafety, HearsTheEstopBeforeItAsksTheController) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bool stopped = false;
+  bench.stage.on_command = [&](const bridge::StageCommand& command) {
+    stopped = stopped || command.action == StageAction::stop;
+  };
+  bench.stage.on_exchange = [&] { EXPECT_TRUE(stopped) << "the controller was asked first"; };
+  bench.lines.inputs.estop_pressed = true;
+  bench.tick();
+  EXPECT_TRUE(stopped);
+}
+
 TEST(JobSafety, StopsWhenTheCameraDoesNotAnswer) {
   expect_stop([](JobBench& bench) { bench.camera.gone = true; }, "camera: gone");
 }

@@ -18,6 +18,10 @@ std::map<JobState, Allowed> expected() {
   const Allowed stoppable = {{E::abort, S::aborting}, {E::alarm, S::faulted}};
   const Allowed pausable = {
       {E::pause, S::pausing}, {E::abort, S::aborting}, {E::alarm, S::faulted}};
+  Allowed in_a_layer = pausable;
+  in_a_layer[E::hold] = S::withdrawing;
+  const Allowed with_a_frame = {
+      {E::hold, S::withdrawing}, {E::abort, S::aborting}, {E::alarm, S::faulted}};
   const auto with = [](Allowed base, const Allowed& more) {
     base.insert(more.begin(), more.end());
     return base;
@@ -32,23 +36,26 @@ std::map<JobState, Allowed> expected() {
        {{E::reset_with_job, S::paused}, {E::reset_without_job, S::idle}, {E::alarm, S::faulted}}},
       {S::preflight, with(stoppable, {{E::step_done, S::recovering}})},
       {S::recovering, with(pausable, {{E::agreed, S::homing}, {E::nothing_left, S::finishing}})},
-      {S::homing,
+      {S::homing, with(pausable, {{E::step_done, S::conditioning}})},
+      {S::conditioning,
        with(pausable, {{E::grind_next, S::grinding}, {E::photograph_next, S::retracting}})},
-      {S::grinding, with(pausable, {{E::step_done, S::retracting}})},
-      {S::retracting, with(pausable, {{E::step_done, S::clearing}})},
-      {S::clearing, with(pausable, {{E::step_done, S::settling}})},
-      {S::settling, with(pausable, {{E::step_done, S::lighting}})},
-      {S::lighting, with(pausable, {{E::step_done, S::focusing}})},
-      {S::focusing, with(pausable, {{E::step_done, S::capturing}})},
-      {S::capturing, with(pausable, {{E::step_done, S::assessing}})},
-      {S::assessing, with(stoppable, {{E::frame_accepted, S::storing},
-                                      {E::take_again, S::capturing},
-                                      {E::focus_again, S::focusing},
-                                      {E::clear_again, S::clearing},
-                                      {E::attempts_exhausted, S::pausing}})},
+      {S::grinding, with(in_a_layer, {{E::step_done, S::retracting}})},
+      {S::retracting, with(in_a_layer, {{E::step_done, S::clearing}})},
+      {S::clearing, with(in_a_layer, {{E::step_done, S::settling}})},
+      {S::settling, with(in_a_layer, {{E::step_done, S::lighting}})},
+      {S::lighting, with(in_a_layer, {{E::step_done, S::focusing}})},
+      {S::focusing, with(in_a_layer, {{E::step_done, S::capturing}})},
+      {S::capturing, with(in_a_layer, {{E::step_done, S::assessing}})},
+      {S::assessing, with(with_a_frame, {{E::frame_accepted, S::storing},
+                                         {E::take_again, S::capturing},
+                                         {E::focus_again, S::focusing},
+                                         {E::clear_again, S::clearing},
+                                         {E::attempts_exhausted, S::pausing}})},
       {S::storing,
-       with(stoppable, {{E::layer_committed, S::grinding}, {E::nothing_left, S::finishing}})},
+       with(with_a_frame, {{E::layer_committed, S::grinding}, {E::nothing_left, S::finishing}})},
       {S::pausing, with(stoppable, {{E::step_done, S::paused}})},
+      {S::withdrawing, with(stoppable, {{E::step_done, S::held}})},
+      {S::held, with(stoppable, {{E::fit_again, S::preflight}, {E::pause, S::paused}})},
       {S::finishing, with(stoppable, {{E::step_done, S::done}})},
       {S::aborting, {{E::step_done, S::aborted}, {E::alarm, S::faulted}}},
   };

@@ -69,11 +69,25 @@ TEST(Supervision, MissesAHeartbeatThatStandsStill) {
 TEST(Supervision, ForgivesAShortExcursionOfTheTemperatureOnly) {
   Rig rig;
   rig.status.block_temperature_c = 3.0;
-  EXPECT_EQ(rig.after(milliseconds(4000)), std::nullopt);
+  rig.after(milliseconds(4000));
+  EXPECT_EQ(rig.supervision.temperature_cause(), std::nullopt);
   rig.status.block_temperature_c = -30.0;
-  EXPECT_EQ(rig.after(milliseconds(4000)), std::nullopt);
+  rig.after(milliseconds(4000));
+  EXPECT_EQ(rig.supervision.temperature_cause(), std::nullopt);
   rig.status.block_temperature_c = 3.0;
-  EXPECT_THAT(rig.after(milliseconds(6000)), Optional(HasSubstr("the block is at 3.0 °C")));
+  rig.after(milliseconds(6000));
+  EXPECT_THAT(rig.supervision.temperature_cause(),
+              Optional(HasSubstr("the block is at 3.0 °C")));
+}
+
+TEST(Supervision, ForgivesAShortPeakOfTheSpindlesLoadOnly) {
+  Rig rig;
+  rig.status.spindle_load_percent = 120.0;
+  EXPECT_EQ(rig.after(milliseconds(900)), std::nullopt);
+  rig.status.spindle_load_percent = 20.0;
+  EXPECT_EQ(rig.after(milliseconds(900)), std::nullopt);
+  rig.status.spindle_load_percent = 120.0;
+  EXPECT_THAT(rig.after(milliseconds(1100)), Optional(HasSubstr("load is 120.0 %")));
 }
 
 TEST(Supervision, NamesTheControllersFault) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace biotomy::acquisition {
+
+/// What the sample's journal tells of the run before, as far as a daemon that starts must know it.
+struct EarlierRun {
+  std::uint32_t last_sequence = 0;  ///< the highest command number; 0 if none
+  bool was_running = false;         ///< nobody stopped it: the daemon crashed, or the power was cut
+};
+
+/// Reads it from the journal; a journal that is not there tells of nothing. Throws JournalError.
+EarlierRun read_earlier_run(const std::filesystem::path& journal);
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,133 @@
+// What a daemon does with a job that was running when the one before it ended.
+#include "acquisition/job/earlier_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/job/job.hpp"
+#include "tests/acquisition/job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::uint16_t kWatchdog = 3;
+constexpr std::uint16_t kDrive = 5;
+
+std::filesystem::path journal(const JobBench& bench) {
+  return bench.settings.plan.sample / "journal.sqlite";
+}
+
+TEST(EarlierRun, OfNoJournalTellsOfNothing) {
+  const EarlierRun earlier = read_earlier_run("no/such/journal.sqlite");
+  EXPECT_EQ(earlier.last_sequence, 0U);
+  EXPECT_FALSE(earlier.was_running);
+}
+
+TEST(EarlierRun, WasRunningInEveryStepOfALayer) {
+  JobBench bench;
+  bench.start_job();
+  for (const JobState state : {JobState::recovering, JobState::grinding, JobState::focusing,
+                               JobState::assessing, JobState::storing}) {
+    ASSERT_TRUE(bench.reach(state));
+    EXPECT_TRUE(read_earlier_run(journal(bench)).was_running) << to_string(state);
+  }
+  EXPECT_GT(read_earlier_run(journal(bench)).last_sequence, 0U);
+}
+
+TEST(EarlierRun, WasNotRunningAfterAPauseAFaultAnAbortAndTheEnd) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.say(OperatorCommand::pause);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  EXPECT_FALSE(read_earlier_run(journal(bench)).was_running);
+  bench.say(OperatorCommand::resume);
+  ASSERT_TRUE(bench.reach(JobState::clearing));
+  bench.lines.inputs.door_open = true;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_FALSE(read_earlier_run(journal(bench)).was_running);
+  bench.lines.inputs.door_open = false;
+  bench.tick(10);
+  bench.say(OperatorCommand::acknowledge);
+  bench.say(OperatorCommand::abort);
+  ASSERT_TRUE(bench.reach(JobState::aborted));
+  EXPECT_FALSE(read_earlier_run(journal(bench)).was_running);
+  bench.say(OperatorCommand::start);
+  ASSERT_TRUE(bench.reach(JobState::done));
+  EXPECT_FALSE(read_earlier_run(journal(bench)).was_running);
+}
+
+struct CrashedDaemon : testing::Test {
+  CrashedDaemon() {
+    bench.settings.plan.after_restart = JobPlan::AfterRestart::go_on;
+    bench.start_daemon();
+    bench.start_job();
+    while (bench.board.look()->committed < 2) bench.tick();
+    EXPECT_TRUE(bench.reach(JobState::clearing));
+    bench.job.reset();
+    // The controller has missed the daemon's heartbeat and stopped by itself.
+    bench.stage.status.state = bridge::ControllerState::faulted;
+    bench.stage.status.fault_code = kWatchdog;
+    bench.stage.status.interlocks.watchdog_tripped = true;
+  }
+  JobBench bench;
+};
+
+TEST_F(CrashedDaemon, GoesOnByItselfWhenConfiguredSo) {
+  bench.start_daemon();
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0, 1020.0, 1040.0, 1060.0, 1080.0));
+  EXPECT_THAT(bench.events_of_kind("operator"), HasSubstr("goes on by itself after a restart"));
+}
+
+TEST_F(CrashedDaemon, WaitsForAnOperatorWhenNotConfiguredSo) {
+  bench.settings.plan.after_restart = JobPlan::AfterRestart::wait;
+  bench.start_daemon();
+  bench.tick(5000);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+TEST_F(CrashedDaemon, WaitsForAnOperatorWhileTheDoorIsOpen) {
+  bench.lines.inputs.door_open = true;
+  bench.start_daemon();
+  bench.tick(60 * 50 + 10);
+  bench.lines.inputs.door_open = false;
+  bench.tick(1000);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("did not go on by itself"));
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  EXPECT_EQ(bench.state(), JobState::idle);
+}
+
+TEST_F(CrashedDaemon, WaitsForAnOperatorWhenTheControllerHasAnotherFault) {
+  bench.stage.status.fault_code = kDrive;
+  bench.start_daemon();
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the controller is faulted: a drive"));
+}
+
+TEST_F(CrashedDaemon, LeavesItToTheOperatorWhoSpeaksFirst) {
+  bench.start_daemon();
+  bench.say(OperatorCommand::pause);
+  bench.tick(1000);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+}
+
+TEST_F(CrashedDaemon, StopsWhenJournalAndControllerDisagree) {
+  ++bench.stage.status.grind_count;
+  bench.start_daemon();
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("disagrees with the controller"));
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+}  // namespace
+}  // namespace biotomy::tests

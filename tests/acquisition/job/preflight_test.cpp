@@ -1,0 +1,88 @@
+#include "acquisition/job/preflight.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/job/job.hpp"
+#include "tests/acquisition/job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::HasSubstr;
+
+/// Starts the job and expects it to be stopped before anything moved.
+void expect_refusal(JobBench& bench, const std::string& cause) {
+  bench.start_daemon();
+  bench.say(OperatorCommand::start);
+  ASSERT_TRUE(bench.reach(JobState::faulted, 500)) << cause;
+  EXPECT_THAT(bench.alarm(), HasSubstr(cause));
+  for (const auto& entry : bench.stage.executed) {
+    EXPECT_THAT(entry.command.action,
+                testing::AnyOf(bridge::StageAction::stop, bridge::StageAction::retract));
+  }
+}
+
+TEST(Preflight, RefusesAControllerThatDoesNotWatchTheDaemon) {
+  JobBench bench;
+  bench.stage.identity.watchdog_timeout = std::chrono::milliseconds(0);
+  expect_refusal(bench, "does not watch the daemon's heartbeat");
+}
+
+TEST(Preflight, RefusesALastLayerBeyondTheFeed) {
+  JobBench bench;
+  bench.stage.identity.feed.maximum = {1079.0};
+  expect_refusal(bench, "layer 5 would be at 1080 µm of the feed");
+}
+
+TEST(Preflight, RefusesALastFocusBeyondTheColumn) {
+  JobBench bench;
+  bench.stage.identity.column.maximum = {650.0};
+  expect_refusal(bench, "the focus of the last layer would be at 670 µm of the column");
+}
+
+TEST(Preflight, RefusesADiskWithoutRoomForTheWholeJob) {
+  JobBench bench;
+  bench.settings.plan.layers = 1000;
+  bench.stage.identity.column.maximum = {30000.0};
+  // Room for the reserve of 20 layers and some more, of 2 × 96 × 64 × 3 bytes each.
+  bench.free_bytes = std::uintmax_t{30} * 2 * 96 * 64 * 3;
+  expect_refusal(bench, "the disk has room for 30 more layers and the job needs 1000");
+  bench.settings.limits.disk_for_whole_job = false;
+  bench.start_daemon();
+  bench.start_job();
+  EXPECT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+}
+
+TEST(Preflight, RefusesAComputerWhoseClockIsNotSet) {
+  JobBench bench;
+  bench.wall_clock_start = std::chrono::system_clock::time_point{};
+  expect_refusal(bench, "the computer's clock says 1970-01-01");
+}
+
+TEST(Preflight, RefusesAClockThatIsBehindTheJournal) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::clearing));
+  bench.wall_clock_start -= std::chrono::days(30);
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_THAT(bench.alarm(), HasSubstr("set the clock before going on"));
+}
+
+TEST(Preflight, RefusesACameraOfOtherBits) {
+  JobBench bench;
+  bench.settings.plan.bits = 16;
+  expect_refusal(bench, "the camera gives 8 bits of each colour and job.bits is 16");
+}
+
+TEST(Preflight, RefusesACameraThatGivesNoFrame) {
+  JobBench bench;
+  bench.camera.gone = true;
+  expect_refusal(bench, "camera: gone");
+}
+
+}  // namespace
+}  // namespace biotomy::tests
