@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace biotomy::acquisition {
 namespace {
@@ -40,6 +41,10 @@ bool MotionWatch::near(bridge::Micrometres a, bridge::Micrometres b) const {
 void MotionWatch::observe(const bridge::StageStatus& status, TimePoint now) {
   const Axes axes = axes_of(status);
   cause_.reset();
+  // A short command begins and ends between two looks, both of which find an idle controller.
+  if (std::exchange(last_command_, status.sequence_started) != status.sequence_started) {
+    at_rest_.reset();
+  }
   switch (status.state) {
     case bridge::ControllerState::idle:
       stays_.reset();

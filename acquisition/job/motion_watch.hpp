@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -54,7 +55,8 @@ class MotionWatch {
   bool same_places(const Axes& a, const Axes& b) const;
 
   SafetyLimits limits_;
-  std::optional<Axes> at_rest_;  ///< where the idle controller left them
+  std::optional<Axes> at_rest_;     ///< where the idle controller left them
+  std::uint32_t last_command_ = 0;  ///< that was started, by the controller's echo
   std::optional<std::array<Stay, kAxes>> stays_;
   std::optional<Stir> stir_;
   std::optional<std::string> cause_;

@@ -63,6 +63,15 @@ TEST(MotionWatch, TakesThePlaceAfterACommandAsTheNewOne) {
   EXPECT_EQ(machine.cause(), "");
 }
 
+TEST(MotionWatch, TakesACommandThatBeganAndEndedBetweenTwoLooksForWhatItIs) {
+  Watched machine(ControllerState::idle);
+  machine.look(milliseconds(100));
+  ++machine.status.sequence_started;
+  machine.status.column = machine.status.column_target = {525.0};
+  machine.look(milliseconds(100));
+  EXPECT_EQ(machine.cause(), "");
+}
+
 TEST(MotionWatch, SeesAnAxisThatStandsStillOnItsWay) {
   Watched machine(ControllerState::busy);
   machine.status.traverse_target = {150000.0};
