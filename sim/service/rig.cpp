@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kStepSeconds = 0.004;
 
-/// While the machine moves, its state is kept so often that a killed twin forgets little.
+/// While the machine moves, its axes are kept so often that a killed twin forgets little. What is
+/// ground off is kept at once.
 constexpr std::chrono::milliseconds kKeepingPeriod{250};
 
 const char* name_of(bridge::RigInput input) {
@@ -46,7 +47,7 @@ Rig::Rig(const RigSettings& settings, StateFile state_file, WitnessLog& witness,
     controller_.restore(state->memory);
   }
   write_state();
-  witness_.twin_started(rig_s_, settings_.seed);
+  witness_.twin_started(rig_s_, settings_.seed, controller_.memory(), mechanics_.block());
 }
 
 ControllerEvents Rig::events() {
@@ -82,8 +83,8 @@ void Rig::advance(RealTime now) {
     mechanics_.advance(step_s);
     controller_.advance(step_s, now);
   }
-  if (controller_.status().state == ControllerState::busy &&
-      now - state_written_at_ >= kKeepingPeriod) {
+  const bool moves = controller_.status().state == ControllerState::busy;
+  if (was_ground() || (moves && now - state_written_at_ >= kKeepingPeriod)) {
     write_state();
   }
 }
@@ -98,6 +99,12 @@ void Rig::write_state() {
                      mechanics_.feed.position_um(), mechanics_.traverse.position_um(),
                      mechanics_.column.position_um()});
   state_written_at_ = now_;
+  block_kept_ = mechanics_.block().state();
+}
+
+bool Rig::was_ground() const {
+  const Block::State& block = mechanics_.block().state();
+  return block.passes != block_kept_.passes || block.strip_depth_um != block_kept_.strip_depth_um;
 }
 
 ControllerReading Rig::read() {

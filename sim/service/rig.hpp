@@ -26,7 +26,9 @@ struct RigSettings {
 
 /// The rig as a whole: machine, controller, lines, behind one lock, so that its parts never
 /// disagree. Time passes by advance() alone. What happens is told to the witness, and what has to
-/// outlive the process is in the state file before anybody can learn of it. Any thread.
+/// outlive the process is in the state file before anybody can learn of it: the controller's memory
+/// as in a real one, and what the wheel took off, since a killed twin must not heal the block. Any
+/// thread.
 class Rig final : public ControllerPort {
  public:
   using RealTime = Controller::RealTime;
@@ -58,6 +60,7 @@ class Rig final : public ControllerPort {
   ControllerEvents events();
   void finish_command(const Command& command, CommandResult result);
   void write_state();
+  bool was_ground() const;  ///< since the state was written
 
   RigSettings settings_;
   StateFile state_file_;
@@ -74,6 +77,7 @@ class Rig final : public ControllerPort {
   double rig_s_ = 0;
   RealTime now_;
   RealTime state_written_at_;
+  Block::State block_kept_;  ///< as the state file has it
 };
 
 }  // namespace biotomy::sim

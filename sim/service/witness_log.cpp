@@ -69,8 +69,16 @@ void WitnessLog::write(double rig_s, const char* event, const Json& facts) {
   }
 }
 
-void WitnessLog::twin_started(double rig_s, std::uint64_t seed) {
-  write(rig_s, "twin_started", {{"seed", seed}, {"version", BIOTOMY_VERSION}});
+void WitnessLog::twin_started(double rig_s, std::uint64_t seed, const ControllerMemory& memory,
+                              const Block& block) {
+  write(rig_s, "twin_started",
+        {{"seed", seed},
+         {"version", BIOTOMY_VERSION},
+         {"sequence", memory.sequence_finished},
+         {"result", to_string(memory.result)},
+         {"grind_count", memory.grind_count},
+         {"passes", block.state().passes},
+         {"face", face_of(block)}});
 }
 
 void WitnessLog::command_started(double rig_s, const Command& command) {

@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "firmware_bridge/wire/unique_fd.hpp"
-#include "sim/control/command.hpp"
+#include "sim/control/controller.hpp"
 #include "sim/physics/block.hpp"
 
 namespace biotomy::sim {
@@ -36,7 +36,10 @@ class WitnessLog {
   /// An empty path: nothing is written. Throws std::system_error if the file can't be opened.
   WitnessLog(const std::filesystem::path& file, Clock clock);
 
-  void twin_started(double rig_s, std::uint64_t seed);
+  /// With what it remembers: how the last command ended that its killed predecessor had begun, and
+  /// the block as that left it.
+  void twin_started(double rig_s, std::uint64_t seed, const ControllerMemory& memory,
+                    const Block& block);
   void command_started(double rig_s, const Command& command);
   void command_finished(double rig_s, const Command& command, CommandResult result);
   void grind_pass(double rig_s, const Command& command, CommandResult result, const Block& before,

@@ -83,6 +83,31 @@ TEST(Rig, FindsACommandAbortedThatAKillBrokeOff) {
   EXPECT_EQ(second.rig.read().memory.grind_count, 0U);
 }
 
+TEST(Rig, DoesNotHealTheBlockWhenItIsKilledDuringAPass) {
+  Workshop shop;
+  const auto pass = static_cast<std::uint16_t>(Action::grind_pass);
+  double mean_um = 0;
+  {
+    RunningRig first(shop);
+    first.complete(1, Action::home);
+    first.rig.submit({2, pass, 1000, 0, 3000});
+    while (first.rig.scene().block.deepest_um() < 1000) first.run(10ms);
+    first.run(20ms);
+    const Block block = first.rig.scene().block;
+    ASSERT_EQ(block.shallowest_um(), 900) << "the pass is over already";
+    mean_um = block.mean_um();
+  }
+  RunningRig second(shop);
+  EXPECT_EQ(second.rig.scene().block.mean_um(), mean_um);
+  const auto started = shop.witness("twin_started");
+  ASSERT_EQ(started.size(), 2U);
+  EXPECT_EQ(started[1].at("sequence"), 2);
+  EXPECT_EQ(started[1].at("result"), "aborted");
+  EXPECT_EQ(started[1].at("grind_count"), 0);
+  EXPECT_EQ(started[1].at("passes"), 1);
+  EXPECT_EQ(started[1].at("face").at("mean_um"), mean_um);
+}
+
 TEST(Rig, RefusesADamagedStateFile) {
   Workshop shop;
   std::ofstream(shop.folder / "state.json") << "{\"version\": 1, \"sequence";
