@@ -15,7 +15,6 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr double kFirstFaceUm = 1000;
 constexpr double kColumnOffsetUm = 350;
 constexpr double kFocusGuessErrorUm = 25;  // the operator's guess is near, not right
 
@@ -26,44 +25,76 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 SimulatedRig::SimulatedRig(const RigPlan& plan) : plan_(plan) {
-  const std::filesystem::path sim_config = folder() / "sim.toml";
-  const std::string number = std::to_string(plan.time_scale);
-  write_text(sim_config,
-             "seed = 7\ntime_scale = " + number +
-                 "\nstate_file = \"controller.json\"\nwitness_log = \"witness.jsonl\"\n"
-                 "[stage]\nlisten = \"tcp://127.0.0.1:0\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
-                 "\"\n[rig]\nsocket = \"unix://rig.socket\"\n[camera]\nwidth = " +
-                 std::to_string(plan.width) + "\nheight = " + std::to_string(plan.height) +
-                 "\npixel = " + std::to_string(plan.pixel_um) +
-                 "\ncolumn_offset = " + std::to_string(kColumnOffsetUm) +
-                 "\n[block]\nfirst_face = " + std::to_string(kFirstFaceUm) + "\n");
+  write_twin_configuration();
   phantom_ = std::make_unique<sim::Phantom>(
-      sim::read_configuration(bridge::CheckedTable::read_file(sim_config)).phantom);
-  twin_ = std::make_unique<ChildProcess>(
-      std::vector<std::string>{BIOTOMY_TWIN, "--config", sim_config}, folder());
-  const std::string ready = twin_->wait_for("ready, stage on ", seconds(20));
-  const std::string stage = ready.substr(0, ready.find(','));
+      sim::read_configuration(bridge::CheckedTable::read_file(folder() / "sim.toml")).phantom);
+  start_twin();
+  write_twin_configuration();  // with the address that it has found
+  write_daemon_configuration();
+}
 
+void SimulatedRig::write_twin_configuration() const {
+  write_text(folder() / "sim.toml",
+             "seed = 7\ntime_scale = " + std::to_string(plan_.time_scale) +
+                 "\nstate_file = \"controller.json\"\nwitness_log = \"witness.jsonl\"\n"
+                 "[stage]\nlisten = \"" +
+                 stage_ +
+                 "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
+                 "\"\n[rig]\nsocket = \"unix://rig.socket\"\n[camera]\nwidth = " +
+                 std::to_string(plan_.width) + "\nheight = " + std::to_string(plan_.height) +
+                 "\npixel = " + std::to_string(plan_.pixel_um) +
+                 "\ncolumn_offset = " + std::to_string(kColumnOffsetUm) +
+                 "\n[block]\nfirst_face = " + std::to_string(plan_.first_face_um) + "\n");
+}
+
+void SimulatedRig::write_daemon_configuration() const {
   write_text(folder() / "rig.toml",
-             "[stage]\nendpoint = \"" + stage +
+             "[stage]\nendpoint = \"" + stage_ +
                  "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
                  "\"\n[lines]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "[camera]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "exposure_us = 10000\n"
                  "[job]\nsample = \"sample\"\nlayers = " +
-                 std::to_string(plan.layers) + "\nlayer_thickness_um = " +
-                 std::to_string(plan.layer_thickness_um) + "\npixel_um = [" +
-                 std::to_string(plan.pixel_um) + ", " + std::to_string(plan.pixel_um) +
-                 "]\nfirst_face_um = " + std::to_string(kFirstFaceUm) +
+                 std::to_string(plan_.layers) + "\nlayer_thickness_um = " +
+                 std::to_string(plan_.layer_thickness_um) + "\npixel_um = [" +
+                 std::to_string(plan_.pixel_um) + ", " + std::to_string(plan_.pixel_um) +
+                 "]\nfirst_face_um = " + std::to_string(plan_.first_face_um) +
                  "\nclear_ms = 1500\nsettle_ms = 5\nlamp_warm_up_ms = 5\n"
                  "[focus]\nstart_um = " +
-                 std::to_string(kFirstFaceUm - kColumnOffsetUm + kFocusGuessErrorUm) +
-                 "\n[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = 2\n");
+                 std::to_string(plan_.first_face_um - kColumnOffsetUm + kFocusGuessErrorUm) +
+                 "\n[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = 2\n" +
+                 plan_.daemon_settings);
+}
+
+void SimulatedRig::start_twin() {
+  twin_ = std::make_unique<ChildProcess>(
+      std::vector<std::string>{BIOTOMY_TWIN, "--config", folder() / "sim.toml"}, folder());
+  const std::string ready = twin_->wait_for("ready, stage on ", seconds(20));
+  stage_ = ready.substr(0, ready.find(','));
+}
+
+void SimulatedRig::kill_twin() {
+  twin_->send(SIGKILL);
+  twin_->wait(seconds(10));
+  twin_.reset();
 }
 
 void SimulatedRig::start_daemon() {
-  daemon_ = std::make_unique<ChildProcess>(
-      std::vector<std::string>{BIOTOMY_DAEMON, "--config", folder() / "rig.toml"}, folder());
+  launch_daemon();
+  await_daemon();
+}
+
+void SimulatedRig::launch_daemon(const std::vector<std::string>& environment) {
+  std::vector<std::string> command;
+  if (!environment.empty()) {
+    command = environment;
+    command.insert(command.begin(), "/usr/bin/env");
+  }
+  command.insert(command.end(), {BIOTOMY_DAEMON, "--config", folder() / "rig.toml"});
+  daemon_ = std::make_unique<ChildProcess>(command, folder());
+}
+
+void SimulatedRig::await_daemon() {
   url_ = "http://" + daemon_->wait_for("listening on http://", seconds(20));
 }
 
@@ -71,6 +102,14 @@ void SimulatedRig::kill_daemon() {
   daemon_->send(SIGKILL);
   daemon_->wait(seconds(10));
   daemon_.reset();
+}
+
+void SimulatedRig::send_daemon(int signal) const {
+  daemon_->send(signal);
+}
+
+Outcome SimulatedRig::await_daemon_end(seconds limit) {
+  return daemon_->wait(limit);
 }
 
 Outcome SimulatedRig::rig(const std::string& command, seconds limit) {
@@ -86,7 +125,7 @@ nlohmann::json SimulatedRig::status() {
 
 std::vector<nlohmann::json> SimulatedRig::witnessed(const std::string& event) const {
   std::vector<nlohmann::json> events;
-  std::ifstream log(folder() / "witness.jsonl");
+  std::ifstream log(witness());
   for (std::string line; std::getline(log, line);) {
     nlohmann::json entry = nlohmann::json::parse(line);
     if (entry.at("event") == event) events.push_back(std::move(entry));

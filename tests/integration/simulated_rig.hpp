@@ -20,17 +20,32 @@ struct RigPlan {
   int layers = 36;  ///< a whole band of the volume and a part of the next
   double pixel_um = 10;
   double layer_thickness_um = 20;
+  double first_face_um = 1000;
   double time_scale = 200;
+  std::string daemon_settings = {};  ///< tables of rig.toml beside those that every rig has
 };
 
 /// A twin and a daemon as processes of their own, in a folder of their own; both are killed when
-/// the object goes. The daemon can be killed and started again while the twin goes on.
+/// the object goes. Each of them can be killed and started again while the other goes on.
 class SimulatedRig {
  public:
   explicit SimulatedRig(const RigPlan& plan);
 
   void start_daemon();
   void kill_daemon();
+
+  /// The two halves of start_daemon. `environment`: NAME=VALUE, in which the daemon runs.
+  void launch_daemon(const std::vector<std::string>& environment = {});
+  void await_daemon();
+
+  void send_daemon(int signal) const;
+
+  /// Waits until the daemon has ended by itself. Throws std::runtime_error when time is up.
+  Outcome await_daemon_end(std::chrono::seconds limit);
+
+  /// At the same address as before, with what it remembers.
+  void start_twin();
+  void kill_twin();
 
   /// `biotomy rig COMMAND`.
   Outcome rig(const std::string& command, std::chrono::seconds limit = std::chrono::seconds(60));
@@ -42,6 +57,7 @@ class SimulatedRig {
   std::vector<nlohmann::json> witnessed(const std::string& event) const;
 
   std::filesystem::path folder() const { return folder_.path(); }
+  std::filesystem::path witness() const { return folder_.path() / "witness.jsonl"; }
   std::filesystem::path sample() const { return folder_.path() / "sample"; }
   const RigPlan& plan() const { return plan_; }
 
@@ -49,11 +65,15 @@ class SimulatedRig {
   const sim::Phantom& phantom() const { return *phantom_; }
 
  private:
+  void write_twin_configuration() const;
+  void write_daemon_configuration() const;
+
   RigPlan plan_;
   TemporaryFolder folder_;
   std::unique_ptr<sim::Phantom> phantom_;
   std::unique_ptr<ChildProcess> twin_;
   std::unique_ptr<ChildProcess> daemon_;
+  std::string stage_ = "tcp://127.0.0.1:0";
   std::string url_;
 };
 
