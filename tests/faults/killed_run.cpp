@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/records/utc_time.hpp"
+#include "tests/faults/killing_point.hpp"
 #include "tests/faults/run_journal.hpp"
 
 namespace biotomy::tests {
@@ -45,18 +46,26 @@ void KilledRun::run_daemon_for(From from, std::chrono::microseconds time) {
   if (from == From::work) {
     rig_.await_daemon();
     go_on();
+  }
+  const std::jthread killer([&] {
     std::this_thread::sleep_for(time);
     rig_.send_daemon(SIGKILL);
-  } else {
-    const std::jthread killer([&] {
-      std::this_thread::sleep_for(time);
-      rig_.send_daemon(SIGKILL);
-    });
+  });
+  await_kill(from == From::launch);
+}
+
+void KilledRun::run_daemon_to(const std::string& point) {
+  rig_.launch_daemon(killed_at(point));
+  await_kill(true);
+}
+
+void KilledRun::await_kill(bool go_on_meanwhile) {
+  if (go_on_meanwhile) {
     try {
       rig_.await_daemon();
       go_on();
     } catch (const std::runtime_error&) {
-      // It was killed meanwhile; if it was not, its exit code tells.
+      // It was killed meanwhile; if it was not, the way it ends tells.
     }
   }
   const Outcome end = rig_.await_daemon_end(kPatience);

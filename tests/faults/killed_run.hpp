@@ -34,6 +34,10 @@ class KilledRun {
   enum class From { launch, work };
   void run_daemon_for(From from, std::chrono::microseconds time);
 
+  /// Starts the daemon so that it is killed at a point (see killing_point.hpp), and goes on with
+  /// the job until it is.
+  void run_daemon_to(const std::string& point);
+
   /// To be called while what was killed is not running yet again.
   void note_kill();
 
@@ -55,6 +59,7 @@ class KilledRun {
   std::vector<std::string> verdict(const std::filesystem::path& undisturbed_sample);
 
  private:
+  void await_kill(bool go_on_meanwhile);
   void act(const std::string& state, const std::string& alarm);
 
   SimulatedRig rig_;

@@ -18,8 +18,9 @@ std::vector<Row> rows(const SQLite::Database& database, const char* query, Make 
 }
 
 RunJournal::Search search_of(SQLite::Statement& row) {
-  RunJournal::Search search{.layer = row.getColumn(0).getInt64(), .columns_um = {}};
-  for (const nlohmann::json& point : nlohmann::json::parse(row.getColumn(1).getString())) {
+  RunJournal::Search search{
+      .at = row.getColumn(0).getString(), .layer = row.getColumn(1).getInt64(), .columns_um = {}};
+  for (const nlohmann::json& point : nlohmann::json::parse(row.getColumn(2).getString())) {
     search.columns_um.push_back(point.at(0));
   }
   return search;
@@ -61,7 +62,7 @@ RunJournal read_run_journal(const std::filesystem::path& journal) {
                                  .committed_at = row.getColumn(5).getString()};
       });
   run.searches = rows<RunJournal::Search>(
-      database, "SELECT layer, points FROM focus_sweeps ORDER BY id", search_of);
+      database, "SELECT at, layer, points FROM focus_sweeps ORDER BY id", search_of);
   run.alarms = rows<RunJournal::Alarm>(
       database, "SELECT at, state FROM events WHERE kind = 'alarm' ORDER BY id",
       [](SQLite::Statement& row) {

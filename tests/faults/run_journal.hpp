@@ -31,6 +31,7 @@ struct RunJournal {
     std::string committed_at;
   };
   struct Search {
+    std::string at;  ///< its end
     std::int64_t layer = 0;
     std::vector<double> columns_um;
   };

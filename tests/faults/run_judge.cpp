@@ -66,7 +66,6 @@ class Judge {
     judge_kills();
     judge_intents();
     judge_layers();
-    match_frames();
     judge_frames();
     return std::move(complaints_).take();
   }
@@ -215,17 +214,24 @@ class Judge {
     }
   }
 
-  /// Finds the frame of each attempt: the last of its number that the twin took before. After a
-  /// restart the twin counts from 1 again.
-  void match_frames() {
-    recorded_.assign(witness_.frames.size(), false);
+  /// The last frame that was taken up to `at` and suits, of those that have no record yet.
+  template <typename Suits>
+  std::optional<std::size_t> last_frame_until(const std::string& at, Suits suits) const {
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; i < witness_.frames.size(); ++i) {
+      const WitnessedFrame& frame = witness_.frames[i];
+      if (!recorded_[i] && frame.at <= at && suits(frame)) last = i;
+    }
+    return last;
+  }
+
+  /// The frame of an attempt is known by its number, of which there is one since each start of the
+  /// twin.
+  void match_attempts() {
     for (const RunJournal::Attempt& attempt : journal_.attempts) {
-      std::optional<std::size_t> match;
-      for (std::size_t i = 0; i < witness_.frames.size(); ++i) {
-        const WitnessedFrame& frame = witness_.frames[i];
-        if (!recorded_[i] && frame.number == attempt.frame && frame.at <= attempt.taken_at)
-          match = i;
-      }
+      const auto match = last_frame_until(attempt.taken_at, [&](const WitnessedFrame& frame) {
+        return frame.number == attempt.frame;
+      });
       if (!match) {
         complaints_.add("attempt ", attempt.attempt, " at layer ", attempt.layer, " shows frame ",
                         attempt.frame, ", which the twin did not take then");
@@ -233,6 +239,24 @@ class Judge {
       }
       recorded_[*match] = true;
       judge_attempt(attempt, witness_.frames[*match]);
+    }
+  }
+
+  void match_searches() {
+    for (const RunJournal::Search& search : journal_.searches) {
+      for (const double column_um : search.columns_um) {
+        const auto match = last_frame_until(search.at, [&](const WitnessedFrame& frame) {
+          return layer_at(frame.face_um) == search.layer &&
+                 std::abs(frame.column_um - column_um) <= kStepUm;
+        });
+        if (match) {
+          recorded_[*match] = true;
+        } else {
+          complaints_.add("the search of ", search.at, " at layer ", search.layer,
+                          " measured a frame at ", column_um,
+                          " µm of the column, which the twin did not take");
+        }
+      }
     }
   }
 
@@ -248,23 +272,12 @@ class Judge {
   }
 
   void judge_frames() {
-    std::vector<RunJournal::Search> searches = journal_.searches;
-    const auto is_of_a_search = [&](const WitnessedFrame& frame) {
-      for (RunJournal::Search& search : searches) {
-        if (search.layer != layer_at(frame.face_um)) continue;
-        auto& columns = search.columns_um;
-        const auto point = std::find_if(columns.begin(), columns.end(), [&](double column_um) {
-          return std::abs(column_um - frame.column_um) <= kStepUm;
-        });
-        if (point == columns.end()) continue;
-        columns.erase(point);
-        return true;
-      }
-      return false;
-    };
+    recorded_.assign(witness_.frames.size(), false);
+    match_attempts();
+    match_searches();
     for (std::size_t i = 0; i < witness_.frames.size(); ++i) {
       const WitnessedFrame& frame = witness_.frames[i];
-      if (recorded_[i] || is_of_a_search(frame) || was_lost_by_a_stop(i)) continue;
+      if (recorded_[i] || was_lost_by_a_stop(i)) continue;
       complaints_.add("frame ", frame.number, " of ", frame.at, ", of layer ",
                       layer_at(frame.face_um), ", has no record");
     }
@@ -301,7 +314,7 @@ class Judge {
   RunJournal journal_;
   std::map<std::int64_t, const RunJournal::Layer*> layers_;
   std::vector<std::string> stops_;
-  std::vector<bool> recorded_;  ///< of each frame: as an attempt
+  std::vector<bool> recorded_;  ///< of each frame: as an attempt or in a search
   Complaints complaints_;
 };
 

@@ -30,7 +30,8 @@ struct FinishedRun {
 /// What was wrong with a run, a sentence each; nothing when it was right. Right means:
 /// - every layer was ground by exactly one whole pass, in order. A pass that was broken off by a
 ///   kill, a fault or an alarm is followed by a whole one to the same target;
-/// - no pass began before the layer above was committed: by the clock, and, whatever the clock says,
+/// - no pass began before the layer above was committed: by the clock, and, whatever the clock
+/// says,
 ///   by what the journal held at each kill. Every pass was in the journal before it began;
 /// - every layer is committed and its file is there with its hash;
 /// - its photograph was taken of its own face, by the lamp's light, and shows what an undisturbed

@@ -366,6 +366,33 @@ TEST_F(RunJudge, AllowsAKillOneFrameAndTheSearchThatItBrokeOff) {
   EXPECT_THAT(verdict(), IsEmpty());
 }
 
+TEST_F(RunJudge, TellsASearchThatAKillBrokeOffFromTheOneThatRepeatedIt) {
+  run.grind(1);
+  for (const bool killed : {true, false}) {
+    run.take_frame(1, 640.0);
+    run.move_column();
+    run.take_frame(1, 660.0);
+    if (killed) run.kill(0);
+  }
+  run.record_search(1, {640.0, 660.0});
+  run.move_column();
+  run.take_frame(1);
+  run.commit(1);
+  run.make_from(2);
+  EXPECT_THAT(verdict(), IsEmpty());
+}
+
+TEST_F(RunJudge, FindsASearchThatMeasuredWhatWasNotTaken) {
+  run.grind(1);
+  run.take_frame(1, 640.0);
+  run.record_search(1, {640.0, 660.0});
+  run.move_column();
+  run.take_frame(1);
+  run.commit(1);
+  run.make_from(2);
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("measured a frame at 660 µm")));
+}
+
 TEST_F(RunJudge, DoesNotAllowAKillTwoFrames) {
   run.grind(1);
   run.take_frame(1);
