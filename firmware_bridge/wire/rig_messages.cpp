@@ -242,6 +242,25 @@ struct Codec<SetInputMessage> {
 };
 
 template <>
+struct Codec<BeginFaultMessage> {
+  static constexpr const char* kType = "begin_fault";
+  static void write(json& object, const BeginFaultMessage& message) {
+    object["name"] = message.name;
+    object["event"] = message.event;
+  }
+  static BeginFaultMessage read(Fields& fields) {
+    return {.name = fields.text("name"), .event = fields.text("event")};
+  }
+};
+
+template <>
+struct Codec<EndFaultMessage> {
+  static constexpr const char* kType = "end_fault";
+  static void write(json& object, const EndFaultMessage& message) { object["name"] = message.name; }
+  static EndFaultMessage read(Fields& fields) { return {.name = fields.text("name")}; }
+};
+
+template <>
 struct Codec<ErrorMessage> {
   static constexpr const char* kType = "error";
   static void write(json& object, const ErrorMessage& message) {
@@ -269,6 +288,14 @@ struct Codec<OutputSetMessage> : EmptyCodec<OutputSetMessage> {
 template <>
 struct Codec<InputSetMessage> : EmptyCodec<InputSetMessage> {
   static constexpr const char* kType = "input_set";
+};
+template <>
+struct Codec<FaultBegunMessage> : EmptyCodec<FaultBegunMessage> {
+  static constexpr const char* kType = "fault_begun";
+};
+template <>
+struct Codec<FaultEndedMessage> : EmptyCodec<FaultEndedMessage> {
+  static constexpr const char* kType = "fault_ended";
 };
 
 void check_numbers(const json& object) {

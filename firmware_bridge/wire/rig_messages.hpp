@@ -82,6 +82,20 @@ struct SetInputMessage {
 };
 struct InputSetMessage {};
 
+/// Of the bench, too: something breaks. `event` is TOML text, as in a table of a scenario's file
+/// (sim/README.md); a fault of the same name is replaced.
+struct BeginFaultMessage {
+  std::string name;
+  std::string event;
+};
+struct FaultBegunMessage {};
+
+/// The fault of this name is mended.
+struct EndFaultMessage {
+  std::string name;
+};
+struct FaultEndedMessage {};
+
 struct ErrorMessage {
   std::string message;
 };
@@ -89,7 +103,8 @@ struct ErrorMessage {
 using RigMessage =
     std::variant<HelloMessage, WelcomeMessage, ConfigureMessage, ConfiguredMessage, CaptureMessage,
                  FrameMessage, ReadInputsMessage, InputsMessage, SetOutputMessage, OutputSetMessage,
-                 SetInputMessage, InputSetMessage, ErrorMessage>;
+                 SetInputMessage, InputSetMessage, BeginFaultMessage, FaultBegunMessage,
+                 EndFaultMessage, FaultEndedMessage, ErrorMessage>;
 
 /// The packet's text. Throws MessageError for a number that JSON cannot hold (NaN, infinity).
 std::string to_json(const RigMessage& message);

@@ -29,6 +29,10 @@ TEST(RigMessages, ComeBackFromTheirOwnJson) {
       OutputSetMessage{},
       SetInputMessage{.input = RigInput::door, .on = true},
       InputSetMessage{},
+      BeginFaultMessage{.name = "lamp", .event = "fault = \"lamp_dead\"\n"},
+      FaultBegunMessage{},
+      EndFaultMessage{.name = "lamp"},
+      FaultEndedMessage{},
       ErrorMessage{"no"}};
   for (const RigMessage& message : messages) {
     const std::string text = to_json(message);
