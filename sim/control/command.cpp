@@ -12,6 +12,12 @@ const char* to_string(Fault fault) {
       return "door";
     case Fault::watchdog:
       return "watchdog";
+    case Fault::limit:
+      return "limit";
+    case Fault::drive:
+      return "drive";
+    case Fault::spindle_overload:
+      return "spindle overload";
   }
   return "unknown";
 }

@@ -33,7 +33,15 @@ enum class Acceptance {
 
 enum class ControllerState : std::uint16_t { booting = 0, idle = 1, busy = 2, faulted = 3 };
 enum class CommandResult : std::uint16_t { none = 0, done = 1, refused = 2, aborted = 3 };
-enum class Fault : std::uint16_t { none = 0, estop = 1, door = 2, watchdog = 3 };
+enum class Fault : std::uint16_t {
+  none = 0,
+  estop = 1,
+  door = 2,
+  watchdog = 3,
+  limit = 4,  ///< an axis beyond its limits
+  drive = 5,  ///< an axis or the spindle doesn't do what it is told
+  spindle_overload = 6,
+};
 
 const char* to_string(Fault fault);
 const char* to_string(CommandResult result);

@@ -9,6 +9,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kHeartbeatPeriod{40};
 
+/// A swing on arrival at a limit is not yet beyond it.
+constexpr double kLimitPlayUm = 50;
+
 bool within(double value, double minimum, double maximum) {
   return value >= minimum && value <= maximum;
 }
@@ -20,6 +23,7 @@ Controller::Controller(const ControllerSettings& settings, Mechanics& mechanics,
     : settings_(settings),
       mechanics_(mechanics),
       events_(std::move(events)),
+      drives_(settings.drives),
       boot_left_s_(settings.boot_seconds) {}
 
 Acceptance Controller::submit(const Command& command) {
@@ -27,7 +31,7 @@ Acceptance Controller::submit(const Command& command) {
     return Acceptance::repeated;
   }
   const auto action = static_cast<Action>(command.action);
-  if (state_ == ControllerState::booting ||
+  if (!powered_ || state_ == ControllerState::booting ||
       (state_ == ControllerState::busy && action != Action::stop)) {
     return Acceptance::busy;
   }
@@ -68,7 +72,7 @@ void Controller::finish(CommandResult result) {
       ++memory_.grind_count;
       memory_.ground_position_um = std::max(memory_.ground_position_um, command_.position_um);
     } else if (static_cast<Action>(command_.action) == Action::home) {
-      homed_ = true;
+      set_homed(true);
     }
   }
   memory_.sequence_finished = command_.sequence;
@@ -109,7 +113,7 @@ void Controller::hear_master(std::uint16_t heartbeat) {
 
 void Controller::set_inputs(const SafetyInputs& inputs) {
   inputs_ = inputs;
-  if (state_ == ControllerState::booting) {
+  if (!powered_ || state_ == ControllerState::booting) {
     return;
   }
   if (inputs_.estop_pressed) {
@@ -120,7 +124,10 @@ void Controller::set_inputs(const SafetyInputs& inputs) {
 }
 
 void Controller::advance(double rig_seconds, RealTime now) {
-  if (now - heartbeat_at_ >= kHeartbeatPeriod) {
+  if (!powered_) {
+    return;
+  }
+  if (now - heartbeat_at_ >= kHeartbeatPeriod && !heartbeat_stopped_) {
     ++heartbeat_;
     heartbeat_at_ = now;
   }
@@ -132,6 +139,7 @@ void Controller::advance(double rig_seconds, RealTime now) {
     }
   }
   watch(now);
+  guard(rig_seconds);
   if (state_ == ControllerState::busy) {
     carry_on(rig_seconds);
   }
@@ -146,6 +154,47 @@ void Controller::watch(RealTime now) {
   if (master_silent_ && state_ != ControllerState::booting && !watchdog_tripped_) {
     watchdog_tripped_ = true;
     fall_into(Fault::watchdog);
+  }
+}
+
+bool Controller::beyond_limits() const {
+  const auto beyond = [](const Axis& axis, double minimum, double maximum) {
+    return !within(axis.position_um(), minimum - kLimitPlayUm, maximum + kLimitPlayUm);
+  };
+  return beyond(mechanics_.feed, settings_.feed_minimum_um, settings_.feed_maximum_um) ||
+         beyond(mechanics_.column, settings_.column_minimum_um, settings_.column_maximum_um) ||
+         beyond(mechanics_.traverse, -settings_.traverse_margin_um,
+                mechanics_.face_end_um() + settings_.traverse_margin_um);
+}
+
+Fault Controller::machine_fault() const {
+  return beyond_limits()        ? Fault::limit
+         : drives_.disobeyed()  ? Fault::drive
+         : drives_.overloaded() ? Fault::spindle_overload
+                                : Fault::none;
+}
+
+void Controller::guard(double rig_seconds) {
+  if (state_ == ControllerState::booting) {
+    return;
+  }
+  drives_.watch(mechanics_, rig_seconds);
+  const Fault fault = machine_fault();
+  if (fault != Fault::none) {
+    fall_into(fault);
+  }
+  if (state_ == ControllerState::faulted && beyond_limits()) {
+    const MechanicsSettings& machine = mechanics_.settings();
+    const auto bring_back = [](Axis& axis, double minimum, double maximum, double speed) {
+      if (axis.arrived() && !within(axis.position_um(), minimum, maximum)) {
+        axis.go_to(std::clamp(axis.position_um(), minimum, maximum), speed);
+      }
+    };
+    bring_back(mechanics_.feed, settings_.feed_minimum_um, settings_.feed_maximum_um,
+               machine.feed.speed_um_s);
+    bring_back(mechanics_.column, settings_.column_minimum_um, settings_.column_maximum_um,
+               machine.column.speed_um_s);
+    bring_back(mechanics_.traverse, 0, mechanics_.face_end_um(), machine.traverse.speed_um_s);
   }
 }
 
@@ -174,7 +223,7 @@ void Controller::fall_into(Fault fault) {
   const bool interrupted = state_ == ControllerState::busy;
   make_safe();
   mechanics_.feed.go_to(lifted(mechanics_.feed.position_um()),
-                        mechanics_.settings().feed_speed_um_s);
+                        mechanics_.settings().feed.speed_um_s);
   fault_ = fault;
   events_.faulted(fault);
   if (interrupted) {
@@ -184,7 +233,8 @@ void Controller::fall_into(Fault fault) {
 }
 
 bool Controller::reset_fault() {
-  if (inputs_.estop_pressed || inputs_.door_open || master_silent_) {
+  if (inputs_.estop_pressed || inputs_.door_open || master_silent_ ||
+      machine_fault() != Fault::none) {
     return false;
   }
   if (state_ == ControllerState::faulted) {
@@ -203,6 +253,36 @@ void Controller::make_safe() {
   mechanics_.feed.halt();
   mechanics_.traverse.halt();
   mechanics_.column.halt();
+}
+
+void Controller::set_homed(bool homed) {
+  if (std::exchange(homed_, homed) != homed) {
+    events_.homed(homed);
+  }
+}
+
+void Controller::set_power(bool on) {
+  if (std::exchange(powered_, on) == on) {
+    return;
+  }
+  if (!on) {
+    make_safe();  // contactors and valves fall off
+    return;
+  }
+  const bool interrupted = state_ == ControllerState::busy;
+  state_ = ControllerState::booting;
+  boot_left_s_ = settings_.boot_seconds;
+  fault_ = Fault::none;
+  drives_ = DriveMonitor(settings_.drives);
+  heartbeat_ = 0;
+  master_known_ = false;
+  master_heard_ = false;
+  master_silent_ = false;
+  watchdog_tripped_ = false;
+  set_homed(false);
+  if (interrupted) {
+    finish(CommandResult::aborted);
+  }
 }
 
 ControllerStatus Controller::status() const {

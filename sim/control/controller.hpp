@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "sim/control/command.hpp"
+#include "sim/control/drive_monitor.hpp"
 #include "sim/physics/mechanics.hpp"
 
 namespace biotomy::sim {
@@ -25,6 +26,8 @@ struct ControllerSettings {
   double lift_um = 2000;  ///< how far the wheel goes up for the way to and from the block
   std::chrono::milliseconds watchdog_timeout{2000};  ///< of real time; 0: no watchdog
   double boot_seconds = 0.3;
+  double traverse_margin_um = 5000;  ///< from the ends of the block's way to its limits
+  DriveLimits drives;
 };
 
 /// What the controller keeps in its permanent memory.
@@ -54,6 +57,7 @@ struct ControllerEvents {
   };
   std::function<void(Fault)> faulted = [](Fault) {};
   std::function<void()> reset = [] {};
+  std::function<void(bool)> homed = [](bool) {};  ///< it knows its axes, or knows them no more
   /// Called at every change of the memory, before anything else happens.
   std::function<void()> memory_changed = [] {};
 };
@@ -66,7 +70,13 @@ struct ControllerEvents {
 ///   `home`, everything but `stop` and `reset_fault` while faulted;
 /// - e-stop, open door and a silent master lead to `faulted`: spindle and air off, wheel up, axes
 ///   halted. Only `reset_fault` leaves it, and only once every cause is gone;
-/// - the master is watched from its first heartbeat on.
+/// - so do an axis beyond its limits, an axis or a spindle that doesn't do what it is told for
+/// longer
+///   than DriveLimits allows, and an overloaded spindle; an axis beyond a limit is brought back to
+///   it, so that the cause can go;
+/// - the master is watched from its first heartbeat on;
+/// - without power nothing is known and nothing moves but what runs down; power that comes back
+///   finds the permanent memory alone.
 /// Two clocks come in by advance(): the rig's time moves the machine, real time the watchdog.
 class Controller {
  public:
@@ -83,6 +93,13 @@ class Controller {
 
   /// To be called at least every 50 ms of real time, and every few milliseconds of rig time.
   void advance(double rig_seconds, RealTime now);
+
+  /// Power is cut, or comes back: then it boots. The command that was cut off is `aborted`.
+  void set_power(bool on);
+  bool powered() const { return powered_; }
+
+  /// Its program goes on while its heartbeat stands still.
+  void stop_heartbeat(bool stopped) { heartbeat_stopped_ = stopped; }
 
   ControllerStatus status() const;
   const ControllerMemory& memory() const { return memory_; }
@@ -108,6 +125,10 @@ class Controller {
   void finish(CommandResult result);
   void carry_on(double rig_seconds);
   void watch(RealTime now);
+  void guard(double rig_seconds);
+  Fault machine_fault() const;
+  bool beyond_limits() const;
+  void set_homed(bool homed);
   void fall_into(Fault fault);
   bool reset_fault();
   void make_safe();
@@ -124,6 +145,9 @@ class Controller {
   Mechanics& mechanics_;
   ControllerEvents events_;
   ControllerMemory memory_;
+  DriveMonitor drives_;
+  bool powered_ = true;
+  bool heartbeat_stopped_ = false;
   ControllerState state_ = ControllerState::booting;
   Fault fault_ = Fault::none;
   SafetyInputs inputs_;

@@ -41,7 +41,7 @@ void Controller::plan(const Command& command) {
       return plan_retract();
     case Action::move_column:
       steps_.push_back(
-          move(mechanics_.column, command.position_um, mechanics_.settings().column_speed_um_s));
+          move(mechanics_.column, command.position_um, mechanics_.settings().column.speed_um_s));
       return;
     case Action::clear_face:
       steps_.push_back({[this] { mechanics_.blow_air(true); },
@@ -57,20 +57,20 @@ void Controller::plan(const Command& command) {
 void Controller::plan_home() {
   const MechanicsSettings& machine = mechanics_.settings();
   steps_.push_back(spin(0));
-  steps_.push_back(move(mechanics_.feed, settings_.feed_minimum_um, machine.feed_speed_um_s));
-  steps_.push_back(move(mechanics_.traverse, traverse_minimum_um(), machine.traverse_speed_um_s));
-  steps_.push_back(move(mechanics_.column, settings_.column_minimum_um, machine.column_speed_um_s));
+  steps_.push_back(move(mechanics_.feed, settings_.feed_minimum_um, machine.feed.speed_um_s));
+  steps_.push_back(move(mechanics_.traverse, traverse_minimum_um(), machine.traverse.speed_um_s));
+  steps_.push_back(move(mechanics_.column, settings_.column_minimum_um, machine.column.speed_um_s));
 }
 
 void Controller::plan_grind_pass(const Command& command) {
   const MechanicsSettings& machine = mechanics_.settings();
   const double above_um = std::min(mechanics_.feed.position_um(), lifted(command.position_um));
-  steps_.push_back(move(mechanics_.feed, above_um, machine.feed_speed_um_s));
+  steps_.push_back(move(mechanics_.feed, above_um, machine.feed.speed_um_s));
   steps_.push_back(spin(command.spindle_rpm));
   steps_.push_back(move(mechanics_.traverse, mechanics_.face_begin_um() - kRunOutUm,
-                        machine.traverse_speed_um_s));
+                        machine.traverse.speed_um_s));
   steps_.push_back({[this] { mechanics_.flow_coolant(true); }, [] { return true; }});
-  steps_.push_back(move(mechanics_.feed, command.position_um, machine.feed_speed_um_s));
+  steps_.push_back(move(mechanics_.feed, command.position_um, machine.feed.speed_um_s));
   steps_.push_back(move(mechanics_.traverse, traverse_maximum_um(), machine.grinding_speed_um_s));
   steps_.push_back({[this] { mechanics_.flow_coolant(false); }, [] { return true; }});
 }
@@ -80,10 +80,10 @@ void Controller::plan_retract() {
   steps_.push_back({[this, &machine] {
                       mechanics_.turn_spindle(0);
                       mechanics_.feed.go_to(lifted(mechanics_.feed.position_um()),
-                                            machine.feed_speed_um_s);
+                                            machine.feed.speed_um_s);
                     },
                     [this] { return mechanics_.feed.arrived(); }});
-  steps_.push_back(move(mechanics_.traverse, traverse_minimum_um(), machine.traverse_speed_um_s));
+  steps_.push_back(move(mechanics_.traverse, traverse_minimum_um(), machine.traverse.speed_um_s));
   steps_.push_back(spin(0));
 }
 

@@ -153,6 +153,9 @@ void ModbusServer::run(const std::stop_token& stop) {
 }
 
 void ModbusServer::answer(int client, std::span<const std::uint8_t> request) {
+  if (!controller_.answers()) {
+    return;
+  }
   modbus_t* context = listener_->context.get();
   modbus_set_socket(context, client);
   const int exception = judge_request(request);

@@ -14,6 +14,8 @@ namespace biotomy::sim {
 class ControllerPort {
  public:
   virtual ~ControllerPort() = default;
+  /// False while nothing that comes is heard or answered.
+  virtual bool answers() const = 0;
   virtual ControllerReading read() = 0;
   virtual void hear_master(std::uint16_t heartbeat) = 0;
   virtual Acceptance submit(const Command& command) = 0;

@@ -1,12 +1,20 @@
 #include "sim/physics/camera.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace biotomy::sim {
 
 namespace {
 
 const cv::Scalar kEmptyBed(21, 22, 24);  // dark anodised aluminium
+
+/// How far a sinusoidal vibration of this RMS velocity swings from end to end. Frames stand on feet
+/// of rubber, with a resonance of some 15 Hz.
+double swing_um(double vibration_mm_s) {
+  constexpr double kResonanceHz = 15;
+  return 1e3 * 2.0 * std::numbers::sqrt2 * vibration_mm_s / (2.0 * std::numbers::pi * kResonanceHz);
+}
 
 }  // namespace
 
@@ -50,11 +58,14 @@ Photograph Camera::take(const Scene& begin, const Scene& end, const ExposureSett
   photograph.face_in_view =
       place_face(traverse_um, near ? painter_.paint(end.block) : cv::Mat(), light);
   if (photograph.face_in_view) {
-    smear_along_rows(light, (end.traverse_um - begin.traverse_um) / optics_.view.pixel_um);
+    const double moved_um = std::fabs(end.traverse_um - begin.traverse_um) +
+                            swing_um(0.5 * (begin.vibration_mm_s + end.vibration_mm_s));
+    smear_along_rows(light, moved_um / optics_.view.pixel_um);
     blur(light, blur_sigma_um(optics_.lens, photograph.defocus_um) / optics_.view.pixel_um);
   }
-  photograph.image =
-      sensor_.expose(light, begin.lamp_on && end.lamp_on, exposure, photograph.number);
+  const double lamp =
+      begin.lamp_on && end.lamp_on ? 0.5 * (begin.lamp_share + end.lamp_share) : 0.0;
+  photograph.image = sensor_.expose(light, lamp, exposure, photograph.number);
   return photograph;
 }
 

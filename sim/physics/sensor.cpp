@@ -72,10 +72,10 @@ Sensor::Sensor(std::uint64_t seed, int width, int height, const SensorSettings& 
       down_(half_squares(height, settings.vignetting)),
       noise_(standard_normal(seed_)) {}
 
-cv::Mat Sensor::expose(const cv::Mat& light, bool lamp_on, const ExposureSettings& exposure,
+cv::Mat Sensor::expose(const cv::Mat& light, double lamp, const ExposureSettings& exposure,
                        std::uint64_t frame) const {
   const double amount = exposure.exposure_us / settings_.nominal_exposure_us * exposure.gain *
-                        (lamp_on ? 1.0 : settings_.stray_light);
+                        std::max(lamp, settings_.stray_light);
   const Response response{
       {static_cast<float>(amount * exposure.red_gain), static_cast<float>(amount),
        static_cast<float>(amount * exposure.blue_gain)},

@@ -32,9 +32,10 @@ class Sensor {
   static constexpr int kMostColumns = 1 << 16;
   Sensor(std::uint64_t seed, int width, int height, const SensorSettings& settings);
 
-  /// `light` is CV_32FC3 in levels at the nominal exposure, of the sensor's size; the answer is
-  /// CV_8UC3 or CV_16UC3, R, G, B; what is too bright is clipped.
-  cv::Mat expose(const cv::Mat& light, bool lamp_on, const ExposureSettings& exposure,
+  /// `light` is CV_32FC3 in levels at the nominal exposure, of the sensor's size, of which the
+  /// lamp gives the share `lamp`; the answer is CV_8UC3 or CV_16UC3, R, G, B; what is too bright is
+  /// clipped.
+  cv::Mat expose(const cv::Mat& light, double lamp, const ExposureSettings& exposure,
                  std::uint64_t frame) const;
 
  private:

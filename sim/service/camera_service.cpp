@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "firmware_bridge/wire/shared_frame.hpp"
 
 namespace biotomy::sim {
@@ -41,20 +43,28 @@ CameraService::CameraService(std::string model, Camera camera, const CameraOptic
       time_(std::move(time)),
       camera_(std::move(camera)) {}
 
-bridge::WelcomeMessage CameraService::welcome() const {
+std::optional<bridge::WelcomeMessage> CameraService::welcome() {
+  if (!rig_.camera_condition().answers()) {
+    rig_.note_camera_failure();
+    return std::nullopt;
+  }
   bridge::WelcomeMessage message;
   message.camera = {model_, optics_.view.width, optics_.view.height};
   return message;
 }
 
-bridge::RigAnswer CameraService::answer(const bridge::RigMessage& request) {
+std::optional<bridge::RigAnswer> CameraService::answer(const bridge::RigMessage& request) {
   const std::lock_guard lock(using_);
-  if (const auto* settings = std::get_if<bridge::ConfigureMessage>(&request)) {
-    configure(*settings);
-    return {bridge::ConfiguredMessage{}, {}};
-  }
   if (std::holds_alternative<bridge::CaptureMessage>(request)) {
     return capture();
+  }
+  if (!rig_.camera_condition().answers()) {
+    rig_.note_camera_failure();
+    return std::nullopt;
+  }
+  if (const auto* settings = std::get_if<bridge::ConfigureMessage>(&request)) {
+    configure(*settings);
+    return bridge::RigAnswer{bridge::ConfiguredMessage{}, {}};
   }
   throw bridge::RigRefusal("the camera does not know " + bridge::type_of(request));
 }
@@ -67,7 +77,40 @@ void CameraService::configure(const bridge::ConfigureMessage& request) {
   exposure_ = {request.exposure_us, request.gain, request.red_gain, request.blue_gain};
 }
 
-bridge::RigAnswer CameraService::capture() {
+/// What a camera in this condition gives in place of the image.
+cv::Mat CameraService::spoilt(const cv::Mat& image, const CameraCondition& condition) const {
+  cv::Mat given = image.clone();
+  if (condition.gives_old_frame && !last_.empty()) {
+    last_.copyTo(given);
+  }
+  if (condition.torn_at && !last_.empty()) {
+    const cv::Range old(static_cast<int>(*condition.torn_at * image.rows), image.rows);
+    last_.rowRange(old).copyTo(given.rowRange(old));
+  }
+  if (condition.gives_black_frame) {
+    given.setTo(cv::Scalar::all(0));
+  }
+  if (condition.wrong_size) {
+    cv::resize(given, given, {condition.wrong_size->width, condition.wrong_size->height}, 0, 0,
+               cv::INTER_AREA);
+  }
+  return given;
+}
+
+std::optional<bridge::RigAnswer> CameraService::capture() {
+  std::optional<bridge::RigAnswer> answer;
+  const CameraCondition condition = rig_.begin_capture();
+  if (condition.answers()) {
+    answer = photograph(condition);
+    if (!rig_.camera_condition().answers()) {
+      answer.reset();
+    }
+  }
+  rig_.end_capture();
+  return answer;
+}
+
+bridge::RigAnswer CameraService::photograph(const CameraCondition& condition) {
   const auto began = time_.now();
   const Scene begin = rig_.scene();
   time_.wait(std::chrono::microseconds(
@@ -82,8 +125,16 @@ bridge::RigAnswer CameraService::capture() {
                            .blur_sigma_um = blur_sigma_um(optics_.lens, photograph.defocus_um),
                            .face_in_view = photograph.face_in_view,
                            .lamp_on = begin.lamp_on && end.lamp_on,
-                           .specks = end.block.debris().size()});
-  const cv::Mat& image = photograph.image;
+                           .specks = end.block.debris().size(),
+                           .lamp_share = end.lamp_share,
+                           .vibration_mm_s = end.vibration_mm_s,
+                           .spoilt = condition.spoils_frames()});
+  cv::Mat image = photograph.image;
+  if (condition.spoils_frames()) {
+    image = spoilt(image, condition);
+  } else {
+    last_ = image;
+  }
   bridge::FrameMessage frame;
   frame.width = image.cols;
   frame.height = image.rows;

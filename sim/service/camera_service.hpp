@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "sim/physics/camera.hpp"
@@ -20,18 +21,22 @@ struct CameraTime {
 
 /// The camera behind the rig socket: photographs the rig as it is while the exposure lasts (scaled
 /// like all of the rig's time), sends the frame as sealed shared memory and tells the witness how
-/// far out of focus it truly was.
+/// far out of focus it truly was. A camera that hangs answers nothing; one that gives another frame
+/// than it took tells the witness.
 class CameraService final : public RigServiceHandler {
  public:
   CameraService(std::string model, Camera camera, const CameraOptics& optics, Rig& rig,
                 WitnessLog& witness, CameraTime time);
 
-  bridge::WelcomeMessage welcome() const override;
-  bridge::RigAnswer answer(const bridge::RigMessage& request) override;
+  std::optional<bridge::WelcomeMessage> welcome() override;
+  std::optional<bridge::RigAnswer> answer(const bridge::RigMessage& request) override;
+  bool present() const override { return !rig_.camera_condition().vanished; }
 
  private:
   void configure(const bridge::ConfigureMessage& request);
-  bridge::RigAnswer capture();
+  std::optional<bridge::RigAnswer> capture();
+  bridge::RigAnswer photograph(const CameraCondition& condition);
+  cv::Mat spoilt(const cv::Mat& image, const CameraCondition& condition) const;
 
   std::string model_;
   CameraOptics optics_;
@@ -41,6 +46,7 @@ class CameraService final : public RigServiceHandler {
   std::mutex using_;  ///< one photograph at a time
   Camera camera_;
   ExposureSettings exposure_;
+  cv::Mat last_;  ///< the last photograph that was given as it was
 };
 
 }  // namespace biotomy::sim

@@ -108,10 +108,10 @@ void read_motion(const CheckedTable& motion, Configuration& c) {
                                 .description = description});
   };
   MechanicsSettings& machine = c.rig.mechanics;
-  machine.feed_speed_um_s = speed("feed_speed", 2000, "of the wheel, up and down");
-  machine.traverse_speed_um_s = speed("traverse_speed", 60000, "of the block, to and fro");
+  machine.feed.speed_um_s = speed("feed_speed", 2000, "of the wheel, up and down");
+  machine.traverse.speed_um_s = speed("traverse_speed", 60000, "of the block, to and fro");
   machine.grinding_speed_um_s = speed("grinding_speed", 6000, "of the block under the wheel");
-  machine.column_speed_um_s = speed("column_speed", 4000, "of the camera's column");
+  machine.column.speed_um_s = speed("column_speed", 4000, "of the camera's column");
   machine.spindle_acceleration_rpm_s =
       motion.get(NumberKey{.name = "spindle_acceleration",
                            .fallback = 3000,
@@ -218,6 +218,7 @@ void read_block(const CheckedTable& block, Configuration& c) {
   c.phantom.detail_um = number("detail", 3.5 * view.pixel_um, "um", 0.01, kFarUm,
                                "the finest detail; default: 3.5 pixels");
   c.rig.mechanics.face_width_um = c.phantom.width_um;
+  c.rig.mechanics.face_height_um = c.phantom.height_um;
 }
 
 }  // namespace

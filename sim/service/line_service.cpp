@@ -2,24 +2,23 @@
 
 namespace biotomy::sim {
 
-bridge::RigAnswer LineService::answer(const bridge::RigMessage& request) {
+std::optional<bridge::WelcomeMessage> LineService::welcome() {
+  return rig_.lines_silent() ? std::nullopt : std::optional(bridge::WelcomeMessage{});
+}
+
+std::optional<bridge::RigAnswer> LineService::answer(const bridge::RigMessage& request) {
+  if (rig_.lines_silent()) {
+    return std::nullopt;
+  }
   if (std::holds_alternative<bridge::ReadInputsMessage>(request)) {
     const SafetyInputs inputs = rig_.inputs();
-    return {bridge::InputsMessage{inputs.estop_pressed, inputs.door_open}, {}};
+    return bridge::RigAnswer{bridge::InputsMessage{inputs.estop_pressed, inputs.door_open}, {}};
   }
   if (const auto* output = std::get_if<bridge::SetOutputMessage>(&request)) {
     rig_.set_output(output->role, output->on);
-    return {bridge::OutputSetMessage{}, {}};
+    return bridge::RigAnswer{bridge::OutputSetMessage{}, {}};
   }
   throw bridge::RigRefusal("the lines do not know " + bridge::type_of(request));
-}
-
-bridge::RigAnswer BenchService::answer(const bridge::RigMessage& request) {
-  if (const auto* input = std::get_if<bridge::SetInputMessage>(&request)) {
-    rig_.set_input(input->input, input->on);
-    return {bridge::InputSetMessage{}, {}};
-  }
-  throw bridge::RigRefusal("the bench does not know " + bridge::type_of(request));
 }
 
 }  // namespace biotomy::sim

@@ -9,19 +9,8 @@ namespace biotomy::sim {
 class LineService final : public RigServiceHandler {
  public:
   explicit LineService(Rig& rig) : rig_(rig) {}
-  bridge::WelcomeMessage welcome() const override { return {}; }
-  bridge::RigAnswer answer(const bridge::RigMessage& request) override;
-
- private:
-  Rig& rig_;
-};
-
-/// What no real rig has: the hand that presses the e-stop and opens the door.
-class BenchService final : public RigServiceHandler {
- public:
-  explicit BenchService(Rig& rig) : rig_(rig) {}
-  bridge::WelcomeMessage welcome() const override { return {}; }
-  bridge::RigAnswer answer(const bridge::RigMessage& request) override;
+  std::optional<bridge::WelcomeMessage> welcome() override;
+  std::optional<bridge::RigAnswer> answer(const bridge::RigMessage& request) override;
 
  private:
   Rig& rig_;

@@ -44,11 +44,14 @@ void await_signal(const std::stop_token& done, const std::stop_source& stop) {
   }
 }
 
-void run(const std::string& file, std::optional<std::uint64_t> seed) {
+void run(const std::string& file, const std::string& scenario, std::optional<std::uint64_t> seed) {
   sim::Configuration configuration = sim::read_configuration(bridge::CheckedTable::read_file(file));
   if (seed) {
     configuration.rig.seed = *seed;
     configuration.phantom.seed = *seed;
+  }
+  if (!scenario.empty()) {
+    configuration.rig.scenario = sim::read_scenario(bridge::CheckedTable::read_file(scenario));
   }
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -66,13 +69,15 @@ int main(int argc, char** argv) {
   CLI::App app{"The rig's twin: controller, camera and lines of a grinding rig with a specimen."};
   app.set_version_flag("--version", BIOTOMY_VERSION);
   std::string file;
+  std::string scenario;
   std::optional<std::uint64_t> seed;
   app.add_option("--config", file, "The rig to stand in for, a TOML file (sim/README.md)")
       ->required();
+  app.add_option("--scenario", scenario, "What breaks in the course, a TOML file (sim/README.md)");
   app.add_option("--seed", seed, "Another specimen, wear and noise than the file's seed");
   try {
     app.parse(argc, argv);
-    run(file, seed);
+    run(file, scenario, seed);
   } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);
   } catch (const CLI::ParseError& error) {

@@ -3,12 +3,16 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
+#include <string>
 
 #include "firmware_bridge/wire/rig_messages.hpp"
 #include "sim/control/controller.hpp"
 #include "sim/control/modbus_server.hpp"
 #include "sim/physics/camera.hpp"
 #include "sim/physics/mechanics.hpp"
+#include "sim/scenario/rig_condition.hpp"
+#include "sim/scenario/schedule.hpp"
 #include "sim/service/state_file.hpp"
 #include "sim/service/witness_log.hpp"
 
@@ -22,6 +26,7 @@ struct RigSettings {
   DebrisSettings debris{};
   MechanicsSettings mechanics{};
   ControllerSettings controller{};
+  Scenario scenario{};
 };
 
 /// The rig as a whole: machine, controller, lines, behind one lock, so that its parts never
@@ -45,20 +50,41 @@ class Rig final : public ControllerPort {
   ControllerReading read() override;
   void hear_master(std::uint16_t heartbeat) override;
   Acceptance submit(const Command& command) override;
+  bool answers() const override;
 
   SafetyInputs inputs() const;
   void set_input(bridge::RigInput input, bool on);
   void set_output(bridge::RigOutput output, bool on);
 
+  /// Something breaks beside the scenario (Schedule::add), or is mended. The latter is false if
+  /// there is no event of the name.
+  void add_event(const ScenarioEvent& event);
+  bool end_event(const std::string& name);
+
   /// What the camera sees, now.
   Scene scene() const;
+
+  /// What is wrong with camera and lines, now.
+  CameraCondition camera_condition() const;
+  bool lines_silent() const;
+
+  /// Around each photograph; the camera's condition while it is taken.
+  CameraCondition begin_capture();
+  void end_capture();
+
+  /// The camera was asked for something and could not answer.
+  void note_camera_failure();
 
   double rig_seconds() const;
   double time_scale() const { return settings_.time_scale; }
 
  private:
   ControllerEvents events();
+  ScheduleEvents schedule_events();
   void finish_command(const Command& command, CommandResult result);
+  void follow_schedule();
+  void follow_inputs();
+  void watch_spindle();
   void write_state();
   bool was_ground() const;  ///< since the state was written
 
@@ -69,8 +95,15 @@ class Rig final : public ControllerPort {
   mutable std::mutex mutex_;
   Mechanics mechanics_;
   Controller controller_;
-  Block block_before_;  ///< when the present command began
-  SafetyInputs inputs_;
+  Schedule schedule_;
+  RigCondition condition_;
+  bool is_sound_ = true;  ///< nothing is broken, and the condition says so
+  Block block_before_;    ///< when the present command began
+  SafetyInputs bench_inputs_;
+  SafetyInputs inputs_;  ///< what the bench and the faults make of them together
+  bool spindle_turns_ = false;
+  double spindle_started_s_ = 0;
+  std::optional<double> spindle_released_s_{};  ///< when it was told to stop, while it turns
   bool lamp_on_ = false;
   bool trigger_on_ = false;
   bool tower_light_on_ = false;

@@ -51,30 +51,34 @@ void RigServer::run(const std::stop_token& stop) {
 
 void RigServer::serve(bridge::RigConnection connection, const std::stop_token& stop) const {
   RigServiceHandler* handler = nullptr;
-  while (!stop.stop_requested()) {
+  const auto device_is_gone = [&] { return handler != nullptr && !handler->present(); };
+  while (!stop.stop_requested() && !device_is_gone()) {
     try {
       if (!connection.wait(kPoll)) {
         continue;
       }
       const bridge::RigPacket packet = connection.receive(kSendingTimeOut);
-      bridge::RigAnswer answer;
+      std::optional<bridge::RigAnswer> answer;
       try {
         const bridge::RigMessage request = bridge::from_json(packet.text);
         answer = handler == nullptr ? answer_first(request, handler) : handler->answer(request);
       } catch (const bridge::MessageError& error) {
-        answer.message = bridge::ErrorMessage{error.what()};
+        answer.emplace(bridge::ErrorMessage{error.what()});
       } catch (const bridge::RigRefusal& refusal) {
-        answer.message = bridge::ErrorMessage{refusal.what()};
+        answer.emplace(bridge::ErrorMessage{refusal.what()});
       }
-      connection.send(bridge::to_json(answer.message), kSendingTimeOut, answer.descriptor.get());
+      if (answer && !device_is_gone()) {
+        connection.send(bridge::to_json(answer->message), kSendingTimeOut,
+                        answer->descriptor.get());
+      }
     } catch (const bridge::RigSocketError&) {
       return;  // gone, or no longer understandable: the client connects anew
     }
   }
 }
 
-bridge::RigAnswer RigServer::answer_first(const bridge::RigMessage& request,
-                                          RigServiceHandler*& handler) const {
+std::optional<bridge::RigAnswer> RigServer::answer_first(const bridge::RigMessage& request,
+                                                         RigServiceHandler*& handler) const {
   const auto* hello = std::get_if<bridge::HelloMessage>(&request);
   if (hello == nullptr) {
     throw bridge::RigRefusal("a connection begins with hello, not " + bridge::type_of(request));
@@ -88,7 +92,11 @@ bridge::RigAnswer RigServer::answer_first(const bridge::RigMessage& request,
     throw bridge::RigRefusal("this service is not offered here");
   }
   handler = found->second;
-  return {handler->welcome(), {}};
+  std::optional<bridge::WelcomeMessage> welcome = handler->welcome();
+  if (!welcome) {
+    return std::nullopt;
+  }
+  return bridge::RigAnswer{*std::move(welcome), {}};
 }
 
 }  // namespace biotomy::sim

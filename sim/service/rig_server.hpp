@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stop_token>
 
 #include "firmware_bridge/wire/rig_client.hpp"
@@ -14,10 +15,16 @@ namespace biotomy::sim {
 class RigServiceHandler {
  public:
   virtual ~RigServiceHandler() = default;
-  virtual bridge::WelcomeMessage welcome() const = 0;
 
-  /// The answer to a request; throws bridge::RigRefusal for what it will not do.
-  virtual bridge::RigAnswer answer(const bridge::RigMessage& request) = 0;
+  /// The answer to `hello`; none: nothing is answered.
+  virtual std::optional<bridge::WelcomeMessage> welcome() = 0;
+
+  /// The answer to a request; none: nothing is answered, now or later. Throws bridge::RigRefusal
+  /// for what it will not do.
+  virtual std::optional<bridge::RigAnswer> answer(const bridge::RigMessage& request) = 0;
+
+  /// Whether the device is there: while it is not, its connections are closed.
+  virtual bool present() const { return true; }
 };
 
 /// Serves camera, lines and bench on one Unix-domain socket, a thread a connection. Whatever is
@@ -36,8 +43,8 @@ class RigServer {
 
  private:
   void serve(bridge::RigConnection connection, const std::stop_token& stop) const;
-  bridge::RigAnswer answer_first(const bridge::RigMessage& request,
-                                 RigServiceHandler*& handler) const;
+  std::optional<bridge::RigAnswer> answer_first(const bridge::RigMessage& request,
+                                                RigServiceHandler*& handler) const;
 
   bridge::RigListener listener_;
   Handlers handlers_;

@@ -20,23 +20,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kVersion = 2;
+
 Json to_json(const RigState& state) {
-  return {{"version", 1},
+  return {{"version", kVersion},
           {"sequence_started", state.memory.sequence_started},
           {"sequence_finished", state.memory.sequence_finished},
           {"result", static_cast<int>(state.memory.result)},
           {"grind_count", state.memory.grind_count},
           {"ground_position_um", state.memory.ground_position_um},
-          {"strip_depth_um", state.block.strip_depth_um},
-          {"passes", state.block.passes},
-          {"blown_ms", state.block.blown_ms},
-          {"feed_um", state.feed_um},
-          {"traverse_um", state.traverse_um},
-          {"column_um", state.column_um}};
+          {"strip_depth_um", state.machine.block.strip_depth_um},
+          {"passes", state.machine.block.passes},
+          {"blown_ms", state.machine.block.blown_ms},
+          {"feed_um", state.machine.feed_um},
+          {"traverse_um", state.machine.traverse_um},
+          {"column_um", state.machine.column_um},
+          {"wheel_worn_um", state.machine.wheel_worn_um}};
 }
 
 RigState from_json(const Json& json) {
-  if (json.at("version") != 1) {
+  if (json.at("version") != kVersion) {
     throw std::runtime_error("made by another version of the twin");
   }
   RigState state;
@@ -54,12 +57,13 @@ RigState from_json(const Json& json) {
     throw std::runtime_error("strip_depth_um must hold " + std::to_string(Block::kStrips) +
                              " depths");
   }
-  json.at("strip_depth_um").get_to(state.block.strip_depth_um);
-  json.at("passes").get_to(state.block.passes);
-  json.at("blown_ms").get_to(state.block.blown_ms);
-  json.at("feed_um").get_to(state.feed_um);
-  json.at("traverse_um").get_to(state.traverse_um);
-  json.at("column_um").get_to(state.column_um);
+  json.at("strip_depth_um").get_to(state.machine.block.strip_depth_um);
+  json.at("passes").get_to(state.machine.block.passes);
+  json.at("blown_ms").get_to(state.machine.block.blown_ms);
+  json.at("feed_um").get_to(state.machine.feed_um);
+  json.at("traverse_um").get_to(state.machine.traverse_um);
+  json.at("column_um").get_to(state.machine.column_um);
+  json.at("wheel_worn_um").get_to(state.machine.wheel_worn_um);
   return state;
 }
 

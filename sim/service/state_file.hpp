@@ -4,18 +4,15 @@
 #include <optional>
 
 #include "sim/control/controller.hpp"
-#include "sim/physics/block.hpp"
+#include "sim/physics/mechanics.hpp"
 
 namespace biotomy::sim {
 
-/// What outlives the twin's process: the controller's permanent memory, and the block and the axes
-/// as they stand.
+/// What outlives the twin's process: the controller's permanent memory, and the machine with
+/// the block as it stands.
 struct RigState {
   ControllerMemory memory;
-  Block::State block;
-  double feed_um = 0;
-  double traverse_um = 0;
-  double column_um = 0;
+  Mechanics::State machine;
 };
 
 /// The state in a JSON file. It is written beside, synchronised and renamed over the old one, so

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/phantom/phantom.hpp"
+#include "sim/service/bench_service.hpp"
 #include "sim/service/camera_service.hpp"
 #include "sim/service/configuration.hpp"
 #include "sim/service/line_service.hpp"

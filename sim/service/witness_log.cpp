@@ -93,14 +93,16 @@ void WitnessLog::command_finished(double rig_s, const Command& command, CommandR
 }
 
 void WitnessLog::grind_pass(double rig_s, const Command& command, CommandResult result,
-                            const Block& before, const Block& after) {
+                            const Block& before, const Block& after, double wheel_worn_um) {
   write(rig_s, "grind_pass",
         {{"sequence", command.sequence},
          {"target_um", command.position_um},
          {"result", to_string(result)},
          {"passes", after.state().passes},
          {"before", face_of(before)},
-         {"after", face_of(after)}});
+         {"after", face_of(after)},
+         {"removed_um", after.mean_um() - before.mean_um()},
+         {"wheel_worn_um", wheel_worn_um}});
 }
 
 void WitnessLog::faulted(double rig_s, Fault fault) {
@@ -109,6 +111,30 @@ void WitnessLog::faulted(double rig_s, Fault fault) {
 
 void WitnessLog::fault_reset(double rig_s) {
   write(rig_s, "fault_reset", Json::object());
+}
+
+void WitnessLog::homed(double rig_s, bool homed) {
+  write(rig_s, homed ? "homed" : "homing_lost", Json::object());
+}
+
+void WitnessLog::controller_power(double rig_s, bool on) {
+  write(rig_s, on ? "controller_restarted" : "controller_power_lost", Json::object());
+}
+
+void WitnessLog::spindle_started(double rig_s, double target_rpm) {
+  write(rig_s, "spindle_started", {{"target_rpm", target_rpm}});
+}
+
+void WitnessLog::spindle_stopped(double rig_s, double turned_s, double run_down_s) {
+  write(rig_s, "spindle_stopped", {{"turned_s", turned_s}, {"run_down_s", run_down_s}});
+}
+
+void WitnessLog::fault_began(double rig_s, const ScenarioEvent& event) {
+  write(rig_s, "fault_began", {{"name", event.name}, {"fault", name_of(event.fault)}});
+}
+
+void WitnessLog::fault_ended(double rig_s, const ScenarioEvent& event) {
+  write(rig_s, "fault_ended", {{"name", event.name}, {"fault", name_of(event.fault)}});
 }
 
 void WitnessLog::input_changed(double rig_s, const char* input, bool on) {
@@ -128,7 +154,10 @@ void WitnessLog::capture(double rig_s, const CaptureFacts& facts) {
          {"blur_sigma_um", facts.blur_sigma_um},
          {"face_in_view", facts.face_in_view},
          {"lamp_on", facts.lamp_on},
-         {"specks", facts.specks}});
+         {"specks", facts.specks},
+         {"lamp_share", facts.lamp_share},
+         {"vibration_mm_s", facts.vibration_mm_s},
+         {"spoilt", facts.spoilt}});
 }
 
 }  // namespace biotomy::sim

@@ -10,6 +10,7 @@
 #include "firmware_bridge/wire/unique_fd.hpp"
 #include "sim/control/controller.hpp"
 #include "sim/physics/block.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace biotomy::sim {
 
@@ -23,6 +24,9 @@ struct CaptureFacts {
   bool face_in_view = false;
   bool lamp_on = false;
   std::size_t specks = 0;  ///< of debris, on the face
+  double lamp_share = 0;   ///< of the light that there should be
+  double vibration_mm_s = 0;
+  bool spoilt = false;  ///< what was given is not what was photographed
 };
 
 /// What the twin saw happen, one JSON object a line, appended and never rewritten: the independent
@@ -43,9 +47,17 @@ class WitnessLog {
   void command_started(double rig_s, const Command& command);
   void command_finished(double rig_s, const Command& command, CommandResult result);
   void grind_pass(double rig_s, const Command& command, CommandResult result, const Block& before,
-                  const Block& after);
+                  const Block& after, double wheel_worn_um);
   void faulted(double rig_s, Fault fault);
   void fault_reset(double rig_s);
+  void homed(double rig_s, bool homed);
+  void controller_power(double rig_s, bool on);
+  void spindle_started(double rig_s, double target_rpm);
+
+  /// It turned for `turned_s`, the last `run_down_s` of it after it was told to stop. Rig time.
+  void spindle_stopped(double rig_s, double turned_s, double run_down_s);
+  void fault_began(double rig_s, const ScenarioEvent& event);
+  void fault_ended(double rig_s, const ScenarioEvent& event);
   void input_changed(double rig_s, const char* input, bool on);
   void output_changed(double rig_s, const char* output, bool on);
   void capture(double rig_s, const CaptureFacts& facts);

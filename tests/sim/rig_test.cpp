@@ -146,6 +146,123 @@ TEST(Rig, HasOneTruthForLinesAndController) {
   EXPECT_TRUE(rig.rig.scene().lamp_on);
 }
 
+ScenarioEvent lasting(const char* name, const RigFault& fault) {
+  return {.name = name, .fault = fault, .when = {}, .lasts = {}};
+}
+
+TEST(Rig, FollowsItsScenarioAndTellsTheWitness) {
+  Workshop shop;
+  shop.settings.scenario.events = {
+      {.name = "press",
+       .fault = EstopPressed{},
+       .when = {.moment = Occasion::Moment::grind_started, .at = 1, .delay_s = 1},
+       .lasts = {.until_reset = true}}};
+  RunningRig rig(shop);
+  EXPECT_EQ(rig.complete(1, Action::home), CommandResult::done);
+  EXPECT_EQ(rig.complete(2, Action::grind_pass, 1000), CommandResult::aborted);
+  EXPECT_TRUE(rig.rig.inputs().estop_pressed);
+  EXPECT_EQ(rig.rig.read().status.fault, Fault::estop);
+  EXPECT_EQ(rig.complete(3, Action::reset_fault), CommandResult::done);
+  EXPECT_FALSE(rig.rig.inputs().estop_pressed);
+  EXPECT_EQ(rig.complete(4, Action::grind_pass, 1000), CommandResult::done);
+  ASSERT_EQ(shop.witness("fault_began").size(), 1U);
+  EXPECT_EQ(shop.witness("fault_began")[0].at("name"), "press");
+  EXPECT_EQ(shop.witness("fault_began")[0].at("fault"), "estop_pressed");
+  EXPECT_EQ(shop.witness("fault_ended").size(), 1U);
+  EXPECT_EQ(shop.witness("input_changed").size(), 2U);
+}
+
+TEST(Rig, LosesTheControllersPowerAndFindsItsMemoryAgain) {
+  Workshop shop;
+  RunningRig rig(shop);
+  rig.complete(1, Action::home);
+  rig.complete(2, Action::grind_pass, 1000);
+  rig.rig.submit({3, static_cast<std::uint16_t>(Action::grind_pass), 1020, 0, 3000});
+  while (rig.rig.read().spindle_load_percent < 8) rig.run(10ms);  // it cuts
+  rig.run(50ms);
+  rig.rig.add_event(lasting("cut", ControllerPowerCut{}));
+  EXPECT_FALSE(rig.rig.answers());
+  EXPECT_EQ(rig.rig.submit({4, 3, 0, 0, 0}), Acceptance::busy);
+  rig.run(1s);
+  EXPECT_EQ(rig.rig.read().spindle_rpm, 0);
+  EXPECT_TRUE(rig.rig.end_event("cut"));
+  EXPECT_TRUE(rig.rig.answers());
+  EXPECT_EQ(rig.rig.read().status.state, ControllerState::booting);
+  rig.run(1s);
+  const ControllerReading reading = rig.rig.read();
+  EXPECT_EQ(reading.status.state, ControllerState::idle);
+  EXPECT_FALSE(reading.status.homed);
+  EXPECT_EQ(reading.memory.sequence_started, 3U);
+  EXPECT_EQ(reading.memory.sequence_finished, 3U);
+  EXPECT_EQ(reading.memory.result, CommandResult::aborted);
+  EXPECT_EQ(reading.memory.grind_count, 1U);
+  EXPECT_EQ(shop.witness("controller_power_lost").size(), 1U);
+  EXPECT_EQ(shop.witness("controller_restarted").size(), 1U);
+  EXPECT_EQ(shop.witness("homed").size(), 1U);
+  EXPECT_EQ(shop.witness("homing_lost").size(), 1U);
+  const auto passes = shop.witness("grind_pass");
+  ASSERT_EQ(passes.size(), 2U);
+  EXPECT_EQ(passes[1].at("result"), "aborted");
+  EXPECT_GT(passes[1].at("removed_um"), 0);
+}
+
+TEST(Rig, TellsTheWitnessHowLongTheSpindleRan) {
+  Workshop shop;
+  RunningRig rig(shop);
+  rig.complete(1, Action::home);
+  rig.complete(2, Action::grind_pass, 1000);
+  rig.rig.set_input(bridge::RigInput::estop, true);
+  rig.run(1s);
+  ASSERT_EQ(shop.witness("spindle_started").size(), 1U);
+  EXPECT_EQ(shop.witness("spindle_started")[0].at("target_rpm"), 3000);
+  ASSERT_EQ(shop.witness("spindle_stopped").size(), 1U);
+  const nlohmann::json stopped = shop.witness("spindle_stopped")[0];
+  EXPECT_NEAR(stopped.at("run_down_s"), 1.0, 0.05);  // 3000 rpm at 3000 rpm/s
+  EXPECT_NEAR(
+      stopped.at("rig_s").get<double>() - shop.witness("faulted")[0].at("rig_s").get<double>(), 1.0,
+      0.05);
+}
+
+TEST(Rig, GrindsNothingWithAWheelThatDoesNotTouch) {
+  Workshop shop;
+  RunningRig rig(shop);
+  rig.complete(1, Action::home);
+  rig.rig.add_event(lasting("high", GrindRemovesNothing{}));
+  EXPECT_EQ(rig.complete(2, Action::grind_pass, 1000), CommandResult::done);
+  EXPECT_EQ(rig.rig.read().memory.grind_count, 1U);
+  EXPECT_EQ(rig.rig.scene().block.mean_um(), 900);
+  ASSERT_EQ(shop.witness("grind_pass").size(), 1U);
+  EXPECT_EQ(shop.witness("grind_pass")[0].at("removed_um"), 0);
+  rig.rig.end_event("high");
+  rig.rig.add_event(lasting("short", GrindRemovesTooLittle{15}));
+  rig.complete(3, Action::grind_pass, 1020);
+  EXPECT_EQ(rig.rig.scene().block.mean_um(), 1005);
+}
+
+TEST(Rig, KeepsItsDebrisWhileTheAirDoesNotReachIt) {
+  Workshop shop;
+  RunningRig rig(shop);
+  rig.complete(1, Action::home);
+  rig.complete(2, Action::grind_pass, 1000);
+  rig.rig.add_event(lasting("clogged", DebrisSticks{}));
+  rig.complete(3, Action::clear_face);
+  EXPECT_EQ(rig.rig.scene().block.debris().size(), 40U);
+  rig.rig.end_event("clogged");
+  rig.complete(4, Action::clear_face);
+  EXPECT_EQ(rig.rig.scene().block.debris().size(), 0U);
+}
+
+TEST(Rig, ShowsAScaleThatIsWrongAndTheTruthToTheCamera) {
+  Workshop shop;
+  RunningRig rig(shop);
+  rig.complete(1, Action::home);
+  rig.complete(2, Action::move_column, 5000);
+  rig.rig.add_event(lasting("scale", AxisReadsWrong{MachineAxis::column, 15}));
+  rig.run(100ms);
+  EXPECT_EQ(rig.rig.read().column_um, 5015);
+  EXPECT_EQ(rig.rig.scene().column_um, 5000);
+}
+
 TEST(Rig, ScalesItsTimeButNotTheWatchdog) {
   Workshop shop;
   RunningRig rig(shop);

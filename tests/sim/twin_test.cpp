@@ -1,8 +1,11 @@
 #include "sim/service/twin.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <future>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <modbus/modbus.h>
@@ -161,6 +164,104 @@ TEST_F(TwinTest, LetsTheBenchPressTheEstopForLinesAndController) {
   const Master m = master();
   EXPECT_TRUE(comes(m, 3, 1));
   EXPECT_EQ(read(m, 4) & 1, 1);
+}
+
+TEST_F(TwinTest, BreaksAndMendsForTheBenchWhatAScenarioCanBreak) {
+  bridge::RigClient bench = client(bridge::RigService::bench);
+  const auto begin = [&](const std::string& name, const std::string& event) {
+    return bench.ask(bridge::BeginFaultMessage{name, event}, 2s);
+  };
+  begin("door", "fault = \"door_open\"");
+  bridge::RigClient lines = client(bridge::RigService::lines);
+  const auto door_is_open = [&] {
+    return std::get<bridge::InputsMessage>(lines.ask(bridge::ReadInputsMessage{}, 2s).message)
+        .door_open;
+  };
+  EXPECT_TRUE(door_is_open());
+  bench.ask(bridge::EndFaultMessage{"door"}, 2s);
+  EXPECT_FALSE(door_is_open());
+  EXPECT_THROW(bench.ask(bridge::EndFaultMessage{"door"}, 2s), bridge::RigRefusal);
+  EXPECT_THROW(begin("lamp", "fault = \"lamp_ded\""), bridge::RigRefusal);
+}
+
+TEST_F(TwinTest, HasACameraThatHangsVanishesAndComesBack) {
+  bridge::RigClient bench = client(bridge::RigService::bench);
+  bridge::RigClient camera = client(bridge::RigService::camera);
+  const auto failure = [&] {
+    try {
+      camera.ask(bridge::CaptureMessage{}, 200ms);
+    } catch (const bridge::RigSocketError& error) {
+      return error.kind();
+    }
+    return bridge::RigSocketError::Kind::failed;
+  };
+  camera.ask(bridge::CaptureMessage{}, 5s);
+  bench.ask(bridge::BeginFaultMessage{"hang", "fault = \"camera_hangs\"\nlasts = { captures = 2 }"},
+            2s);
+  EXPECT_EQ(failure(), bridge::RigSocketError::Kind::timeout);
+  EXPECT_EQ(failure(), bridge::RigSocketError::Kind::timeout);  // `hello` is not answered, either
+  EXPECT_NO_THROW(camera.ask(bridge::CaptureMessage{}, 5s));
+  bench.ask(bridge::BeginFaultMessage{"gone", "fault = \"camera_vanishes\""}, 2s);
+  EXPECT_EQ(failure(), bridge::RigSocketError::Kind::disconnected);
+  EXPECT_EQ(failure(), bridge::RigSocketError::Kind::disconnected);
+  bench.ask(bridge::EndFaultMessage{"gone"}, 2s);
+  EXPECT_NO_THROW(camera.ask(bridge::CaptureMessage{}, 5s));
+}
+
+TEST_F(TwinTest, GivesOldTornBlackAndMissizedFrames) {
+  bridge::RigClient bench = client(bridge::RigService::bench);
+  bridge::RigClient lines = client(bridge::RigService::lines);
+  bridge::RigClient camera = client(bridge::RigService::camera);
+  const auto photograph = [&] {
+    const bridge::RigAnswer answer = camera.ask(bridge::CaptureMessage{}, 5s);
+    const auto& frame = std::get<bridge::FrameMessage>(answer.message);
+    const bridge::MappedFrame pixels(answer.descriptor,
+                                     static_cast<std::size_t>(frame.stride * frame.height));
+    return std::pair(frame, std::vector(pixels.bytes().begin(), pixels.bytes().end()));
+  };
+  const auto with = [&](const std::string& fault, const std::string& parameters = "") {
+    bench.ask(bridge::BeginFaultMessage{"frame", "fault = \"" + fault + "\"\n" + parameters}, 2s);
+    auto taken = photograph();
+    bench.ask(bridge::EndFaultMessage{"frame"}, 2s);
+    return taken;
+  };
+  lines.ask(bridge::SetOutputMessage{bridge::RigOutput::lamp, true}, 2s);
+  const auto [frame, bytes] = photograph();
+
+  const auto [old_frame, old_bytes] = with("camera_old_frame");
+  EXPECT_EQ(old_bytes, bytes);
+  EXPECT_GT(old_frame.sequence, frame.sequence);
+
+  const auto [torn_frame, torn_bytes] = with("camera_torn_frame");
+  const auto half = static_cast<std::ptrdiff_t>(bytes.size() / 2);
+  EXPECT_FALSE(std::equal(bytes.begin(), bytes.begin() + half, torn_bytes.begin()));
+  EXPECT_TRUE(std::equal(bytes.begin() + half, bytes.end(), torn_bytes.begin() + half));
+
+  const auto [black_frame, black_bytes] = with("camera_black_frame");
+  EXPECT_TRUE(std::ranges::all_of(black_bytes, [](std::byte b) { return b == std::byte{0}; }));
+
+  const auto [wrong_frame, wrong_bytes] = with("camera_wrong_size", "width = 60\nheight = 40");
+  EXPECT_EQ(wrong_frame.width, 60);
+}
+
+TEST_F(TwinTest, FallsSilentOnLinesAndModbus) {
+  bridge::RigClient bench = client(bridge::RigService::bench);
+  bridge::RigClient lines = client(bridge::RigService::lines);
+  lines.ask(bridge::ReadInputsMessage{}, 2s);
+  bench.ask(bridge::BeginFaultMessage{"lines", "fault = \"lines_silent\""}, 2s);
+  EXPECT_THROW(lines.ask(bridge::ReadInputsMessage{}, 100ms), bridge::RigSocketError);
+  bench.ask(bridge::EndFaultMessage{"lines"}, 2s);
+  EXPECT_NO_THROW(lines.ask(bridge::ReadInputsMessage{}, 2s));
+
+  const Master m = master();
+  modbus_set_response_timeout(m.get(), 0, 100000);
+  std::uint16_t value = 0;
+  bench.ask(bridge::BeginFaultMessage{"mute", "fault = \"modbus_silent\""}, 2s);
+  EXPECT_EQ(modbus_read_input_registers(m.get(), 0, 1, &value), -1);
+  EXPECT_EQ(errno, ETIMEDOUT);
+  bench.ask(bridge::EndFaultMessage{"mute"}, 2s);
+  modbus_set_response_timeout(m.get(), 5, 0);
+  EXPECT_EQ(read(m, 0), 0xB107);
 }
 
 TEST_F(TwinTest, RefusesRequestsOfAnotherServiceAndGoesOn) {
