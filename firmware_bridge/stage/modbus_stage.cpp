@@ -106,7 +106,7 @@ class ModbusStage::Snapshot {
     for (const auto& [block, registers] : parts_) {
       if (!block.holds(entry)) continue;
       const auto offset = static_cast<std::size_t>(entry.address - block.address);
-      const double value = decode(entry, map_.word_order(), std::span(registers).subspan(offset));
+      const double value = decode(entry, std::span(registers).subspan(offset));
       if (!std::isfinite(value)) {
         throw DeviceError(Kind::refused, "stage: register " + name + " holds no number");
       }
@@ -151,6 +151,9 @@ ModbusStage::ModbusStage(RegisterMap map, std::unique_ptr<RegisterBus> bus)
   check_writable(map_, "daemon_heartbeat");
   check_readable(map_, {"echo"});
   check_writable(map_, "echo");
+  if (map_.at("echo").width() != 1) {
+    throw ConfigurationError(map_.source() + ": registers.echo: must be one register");
+  }
   check_unscaled(map_,
                  {"map_magic", "map_version", "controller_state", "fault_code", "interlocks",
                   "controller_heartbeat", "command_result", "sequence_started", "sequence_finished",
@@ -199,7 +202,7 @@ StageIdentity ModbusStage::identify() {
 StageStatus ModbusStage::exchange(std::uint16_t heartbeat) {
   const RegisterEntry& beat = map_.at("daemon_heartbeat");
   std::vector<std::uint16_t> registers(static_cast<std::size_t>(beat.width()));
-  encode(beat, map_.word_order(), heartbeat, registers);
+  encode(beat, heartbeat, registers);
   bus_->write(beat.address, registers);
 
   const Snapshot snapshot = read(status_blocks_);
@@ -239,7 +242,7 @@ void ModbusStage::issue(std::uint32_t sequence, const StageCommand& command) {
   const auto put = [&](const char* name, double value) {
     const RegisterEntry& entry = map_.at(name);
     const auto offset = static_cast<std::size_t>(entry.address - command_block_.address);
-    encode(entry, map_.word_order(), value, std::span(registers).subspan(offset));
+    encode(entry, value, std::span(registers).subspan(offset));
   };
   try {
     put("command", static_cast<std::uint16_t>(command.action));

@@ -68,8 +68,7 @@ void check_room(const RegisterEntry& entry, std::size_t registers) {
 
 }  // namespace
 
-void encode(const RegisterEntry& entry, WordOrder order, double value,
-            std::span<std::uint16_t> registers) {
+void encode(const RegisterEntry& entry, double value, std::span<std::uint16_t> registers) {
   check_room(entry, registers.size());
   double raw = to_raw(value, entry.scale);
   if (entry.type != RegisterType::f32) raw = std::round(raw);
@@ -86,19 +85,18 @@ void encode(const RegisterEntry& entry, WordOrder order, double value,
                                  : static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
   const auto high = static_cast<std::uint16_t>(bits >> 16);
   const auto low = static_cast<std::uint16_t>(bits & 0xFFFFU);
-  registers[0] = order == WordOrder::big ? high : low;
-  registers[1] = order == WordOrder::big ? low : high;
+  registers[0] = entry.word_order == WordOrder::big ? high : low;
+  registers[1] = entry.word_order == WordOrder::big ? low : high;
 }
 
-double decode(const RegisterEntry& entry, WordOrder order,
-              std::span<const std::uint16_t> registers) {
+double decode(const RegisterEntry& entry, std::span<const std::uint16_t> registers) {
   check_room(entry, registers.size());
   if (entry.type == RegisterType::u16) return from_raw(registers[0], entry.scale);
   if (entry.type == RegisterType::i16) {
     return from_raw(static_cast<std::int16_t>(registers[0]), entry.scale);
   }
-  const std::uint32_t high = order == WordOrder::big ? registers[0] : registers[1];
-  const std::uint32_t low = order == WordOrder::big ? registers[1] : registers[0];
+  const std::uint32_t high = entry.word_order == WordOrder::big ? registers[0] : registers[1];
+  const std::uint32_t low = entry.word_order == WordOrder::big ? registers[1] : registers[0];
   const std::uint32_t bits = high << 16 | low;
   if (entry.type == RegisterType::f32) {
     return from_raw(static_cast<double>(std::bit_cast<float>(bits)), entry.scale);

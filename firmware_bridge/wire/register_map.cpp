@@ -20,7 +20,12 @@ RegisterType type_named(const std::string& name) {
   throw ConfigurationError("register type \"" + name + "\" is not u16, i16, u32, i32 or f32");
 }
 
-RegisterEntry read_entry(const std::string& name, const CheckedTable& table) {
+WordOrder word_order_named(const std::string& name) {
+  return name == "big" ? WordOrder::big : WordOrder::little;
+}
+
+RegisterEntry read_entry(const std::string& name, const CheckedTable& table,
+                         WordOrder order_of_map) {
   RegisterEntry entry;
   entry.name = name;
   entry.table = table.get(TextKey{.name = "table", .choices = {"input", "holding"}}) == "input"
@@ -30,6 +35,10 @@ RegisterEntry read_entry(const std::string& name, const CheckedTable& table) {
       table.get(IntegerKey{.name = "address", .minimum = 0, .maximum = kLastAddress}));
   entry.type = type_named(
       table.get(TextKey{.name = "type", .choices = {"u16", "i16", "u32", "i32", "f32"}}));
+  entry.word_order = word_order_named(
+      table.get(TextKey{.name = "word_order",
+                        .fallback = order_of_map == WordOrder::big ? "big" : "little",
+                        .choices = {"big", "little"}}));
   entry.scale =
       table.get(NumberKey{.name = "scale", .fallback = 1.0, .minimum = 1e-9, .maximum = 1e9});
   entry.unit = table.get(TextKey{.name = "unit", .fallback = "", .may_be_empty = true});
@@ -74,13 +83,12 @@ RegisterMap RegisterMap::from(const CheckedTable& document) {
   // 255 is what a Modbus TCP device without a unit of its own answers to.
   map.unit_id_ =
       static_cast<int>(head.get(IntegerKey{.name = "unit_id", .minimum = 1, .maximum = 255}));
-  map.word_order_ = head.get(TextKey{.name = "word_order", .choices = {"big", "little"}}) == "big"
-                        ? WordOrder::big
-                        : WordOrder::little;
+  map.word_order_ =
+      word_order_named(head.get(TextKey{.name = "word_order", .choices = {"big", "little"}}));
 
   const CheckedTable registers = document.table("registers");
   for (const auto& [name, table] : registers.named_tables()) {
-    map.entries_.push_back(read_entry(name, table));
+    map.entries_.push_back(read_entry(name, table, map.word_order_));
   }
   document.refuse_unknown_keys();
   if (map.entries_.empty()) {

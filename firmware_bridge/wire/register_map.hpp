@@ -25,7 +25,8 @@ struct RegisterEntry {
   RegisterTable table = RegisterTable::input;
   int address = 0;  ///< as it is in the request, from 0
   RegisterType type = RegisterType::u16;
-  double scale = 1.0;  ///< value in `unit` = raw number × scale; more than 0
+  WordOrder word_order = WordOrder::big;  ///< of 32 bits; the map's, unless the entry has its own
+  double scale = 1.0;                     ///< value in `unit` = raw number × scale; more than 0
   std::string unit;
   RegisterAccess access = RegisterAccess::read;
   std::string description;

@@ -91,7 +91,7 @@ ControllerRegisters::ControllerRegisters(const bridge::RegisterMap& map)
 
 void ControllerRegisters::put(std::string_view name, double value) {
   const RegisterEntry& entry = map_.at(name);
-  bridge::encode(entry, map_.word_order(), clamped(entry, value),
+  bridge::encode(entry, clamped(entry, value),
                  std::span(input_).subspan(static_cast<std::size_t>(entry.address)));
 }
 
@@ -163,8 +163,7 @@ std::vector<std::uint16_t> ControllerRegisters::holding_after(
 double ControllerRegisters::held(std::string_view name,
                                  std::span<const std::uint16_t> holding) const {
   const RegisterEntry& entry = map_.at(name);
-  return bridge::decode(entry, map_.word_order(),
-                        holding.subspan(static_cast<std::size_t>(entry.address)));
+  return bridge::decode(entry, holding.subspan(static_cast<std::size_t>(entry.address)));
 }
 
 Command ControllerRegisters::command_after(int address,

@@ -67,12 +67,11 @@ class ModbusStageTest : public ::testing::Test {
   void put(const std::string& name, double value) {
     const RegisterEntry& entry = map_.at(name);
     auto& table = entry.table == RegisterTable::input ? state_.input : state_.holding;
-    encode(entry, map_.word_order(), value,
-           std::span(table).subspan(static_cast<std::size_t>(entry.address)));
+    encode(entry, value, std::span(table).subspan(static_cast<std::size_t>(entry.address)));
   }
   double written(const std::string& name) {
     const RegisterEntry& entry = map_.at(name);
-    return decode(entry, map_.word_order(),
+    return decode(entry,
                   std::span(state_.holding).subspan(static_cast<std::size_t>(entry.address)));
   }
   std::string refusal_of_map(const std::string& text) {

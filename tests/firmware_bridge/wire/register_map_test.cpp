@@ -51,6 +51,14 @@ TEST(RegisterMap, SortsItsEntriesByTableAndAddress) {
   EXPECT_EQ(map.word_order(), WordOrder::little);
 }
 
+TEST(RegisterMap, LetsAnEntryHaveAWordOrderOfItsOwn) {
+  const RegisterMap map = parse(
+      kHead + entry("as_the_map", 0, "u32") +
+      "other = { table = 'input', address = 2, type = 'u32', access = 'r', word_order = 'big' }\n");
+  EXPECT_EQ(map.at("as_the_map").word_order, WordOrder::little);
+  EXPECT_EQ(map.at("other").word_order, WordOrder::big);
+}
+
 TEST(RegisterMap, RefusesTwoEntriesOnOneRegister) {
   EXPECT_EQ(refusal(kHead + entry("wide", 10, "u32") + entry("late", 11)),
             "map.toml:8: registers.late.address: input register 11 is already part of wide");
