@@ -16,10 +16,34 @@ using bridge::IntegerKey;
 using bridge::TextKey;
 using std::chrono::milliseconds;
 
+bridge::Endpoint parse_endpoint_of(const CheckedTable& table, const std::string& text) {
+  try {
+    return bridge::parse_endpoint(text);
+  } catch (const bridge::ConfigurationError& error) {
+    table.reject("endpoint", error.what());
+  }
+}
+
+/// The controller's address; the path of a serial line relative to the file's folder.
+std::string read_stage_endpoint(const CheckedTable& table) {
+  const std::string text = table.get(
+      TextKey{.name = "endpoint",
+              .description = "the controller: \"tcp://host:port\", or \"rtu:///dev/name\" for a "
+                             "serial line"});
+  bridge::Endpoint endpoint = parse_endpoint_of(table, text);
+  if (endpoint.scheme == bridge::Endpoint::Scheme::unix_socket) {
+    table.reject("endpoint", "\"" + text +
+                                 "\" is not possible; expected \"tcp://host:port\" or "
+                                 "\"rtu:///dev/name\"");
+  }
+  if (!endpoint.path.empty()) endpoint.path = table.resolve(endpoint.path);
+  return bridge::to_string(endpoint);
+}
+
 StageConfiguration read_stage(const CheckedTable& table) {
   StageConfiguration stage;
-  stage.endpoint =
-      table.get(TextKey{.name = "endpoint", .description = "the controller: \"tcp://host:port\""});
+  stage.endpoint = read_stage_endpoint(table);
+  stage.serial = bridge::read_serial_format(table);
   stage.register_map = table.resolve(table.get(TextKey{
       .name = "register_map",
       .fallback = "register_map.toml",
@@ -65,15 +89,11 @@ std::string read_socket_endpoint(const CheckedTable& table, bool required) {
     if (required) table.reject("endpoint", "missing; the socket backend needs \"unix://path\"");
     return text;
   }
-  try {
-    const bridge::Endpoint endpoint = bridge::parse_endpoint(text);
-    if (endpoint.scheme != bridge::Endpoint::Scheme::unix_socket) {
-      table.reject("endpoint", "\"" + text + "\" is not possible; expected \"unix://path\"");
-    }
-    return table.resolve(endpoint.path).string();
-  } catch (const bridge::ConfigurationError& error) {
-    table.reject("endpoint", error.what());
+  const bridge::Endpoint endpoint = parse_endpoint_of(table, text);
+  if (endpoint.scheme != bridge::Endpoint::Scheme::unix_socket) {
+    table.reject("endpoint", "\"" + text + "\" is not possible; expected \"unix://path\"");
   }
+  return table.resolve(endpoint.path).string();
 }
 
 LinesConfiguration read_lines(const CheckedTable& table) {

@@ -10,11 +10,13 @@
 #include "firmware_bridge/camera/libcamera_camera.hpp"
 #include "firmware_bridge/lines/gpiod_lines.hpp"
 #include "firmware_bridge/wire/configuration_key.hpp"
+#include "firmware_bridge/wire/serial_line.hpp"
 
 namespace biotomy::acquisition {
 
 struct StageConfiguration {
-  std::string endpoint;  ///< "tcp://host:port"
+  std::string endpoint;  ///< "tcp://host:port" or "rtu:///dev/name"
+  bridge::SerialFormat serial;
   std::filesystem::path register_map;
   std::chrono::milliseconds response_timeout{300};
 };

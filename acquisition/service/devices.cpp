@@ -15,7 +15,9 @@ std::unique_ptr<bridge::Stage> make_stage(const StageConfiguration& configuratio
   bridge::RegisterMap map = bridge::RegisterMap::read_file(configuration.register_map);
   bridge::ModbusLinkSettings link;
   link.endpoint = configuration.endpoint;
+  link.serial = configuration.serial;
   link.unit_id = map.unit_id();
+  link.echo_address = map.at("echo").address;
   link.response_timeout = configuration.response_timeout;
   return std::make_unique<bridge::ModbusStage>(std::move(map),
                                                std::make_unique<bridge::ModbusLink>(link));

@@ -1,6 +1,8 @@
 #include "sim/service/configuration.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 namespace biotomy::sim {
@@ -44,14 +46,18 @@ void read_top(const CheckedTable& file, Configuration& c) {
 }
 
 bridge::Endpoint read_endpoint(const CheckedTable& table, const TextKey& key,
-                               bridge::Endpoint::Scheme scheme, const char* form) {
+                               std::initializer_list<bridge::Endpoint::Scheme> schemes,
+                               const char* form) {
   const std::string text = table.get(key);
   if (text.empty()) {
     return {};  // the reference page's placeholder
   }
   try {
     bridge::Endpoint endpoint = bridge::parse_endpoint(text);
-    if (endpoint.scheme == scheme) {
+    if (std::ranges::find(schemes, endpoint.scheme) != schemes.end()) {
+      if (!endpoint.path.empty()) {
+        endpoint.path = table.resolve(endpoint.path);
+      }
       return endpoint;
     }
   } catch (const bridge::ConfigurationError& error) {
@@ -65,8 +71,13 @@ void read_stage(const CheckedTable& stage, Configuration& c) {
       stage,
       {.name = "listen",
        .fallback = "tcp://127.0.0.1:1502",
-       .description = "where the controller listens for Modbus; port 0 is any free one"},
-      bridge::Endpoint::Scheme::tcp, "tcp://host:port");
+       .description =
+           "where the controller listens for Modbus: tcp://host:port, port 0 is any free "
+           "one; or rtu://path, a serial device, or a link to a pseudo-terminal that "
+           "is made there"},
+      {bridge::Endpoint::Scheme::tcp, bridge::Endpoint::Scheme::rtu},
+      "tcp://host:port or rtu://path");
+  c.stage_serial = bridge::read_serial_format(stage);
   c.register_map = stage.resolve(stage.get(
       TextKey{.name = "register_map", .description = "the file with the registers to serve"}));
   ControllerSettings& controller = c.rig.controller;
@@ -228,10 +239,10 @@ Configuration read_configuration(const bridge::CheckedTable& file) {
   read_top(file, c);
   read_stage(file.table("stage"), c);
   const CheckedTable rig = file.table("rig");
-  c.rig_socket = rig.resolve(
+  c.rig_socket =
       read_endpoint(rig, {.name = "socket", .description = "camera, lines and bench: unix://path"},
-                    bridge::Endpoint::Scheme::unix_socket, "unix://path")
-          .path);
+                    {bridge::Endpoint::Scheme::unix_socket}, "unix://path")
+          .path;
   read_motion(file.table("motion"), c);
   read_camera(file.table("camera"), c);
   read_block(file.table("block"), c);

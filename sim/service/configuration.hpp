@@ -5,6 +5,7 @@
 
 #include "firmware_bridge/wire/checked_table.hpp"
 #include "firmware_bridge/wire/endpoint.hpp"
+#include "firmware_bridge/wire/serial_line.hpp"
 #include "sim/phantom/phantom.hpp"
 #include "sim/physics/camera.hpp"
 #include "sim/service/rig.hpp"
@@ -20,6 +21,7 @@ struct Configuration {
   SensorSettings sensor;
   std::string camera_model;
   bridge::Endpoint stage_listen;
+  bridge::SerialFormat stage_serial;
   std::filesystem::path register_map;
   std::filesystem::path rig_socket;
   std::filesystem::path state_file;

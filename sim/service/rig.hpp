@@ -8,7 +8,7 @@
 
 #include "firmware_bridge/wire/rig_messages.hpp"
 #include "sim/control/controller.hpp"
-#include "sim/control/modbus_server.hpp"
+#include "sim/control/controller_port.hpp"
 #include "sim/physics/camera.hpp"
 #include "sim/physics/mechanics.hpp"
 #include "sim/scenario/rig_condition.hpp"

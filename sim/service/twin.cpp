@@ -35,8 +35,9 @@ Twin::Twin(const Configuration& configuration)
                       configuration.optics, rig_, witness_, camera_time()),
       line_service_(rig_),
       bench_service_(rig_),
-      modbus_server_(configuration.stage_listen,
-                     bridge::RegisterMap::read_file(configuration.register_map), rig_),
+      modbus_server_(make_modbus_server(configuration.stage_listen, configuration.stage_serial,
+                                        bridge::RegisterMap::read_file(configuration.register_map),
+                                        rig_)),
       rig_server_(configuration.rig_socket, {{bridge::RigService::camera, &camera_service_},
                                              {bridge::RigService::lines, &line_service_},
                                              {bridge::RigService::bench, &bench_service_}}) {}
@@ -64,7 +65,7 @@ void Twin::run(const std::stop_token& stop) {
       }
     });
   };
-  std::future<void> modbus = serve(modbus_server_);
+  std::future<void> modbus = serve(*modbus_server_);
   std::future<void> rig = serve(rig_server_);
   // However this ends, the servers end before their futures wait for them.
   const struct StopAtEnd {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <stop_token>
 #include <string>
 
+#include "sim/control/modbus_server.hpp"
 #include "sim/phantom/phantom.hpp"
 #include "sim/service/bench_service.hpp"
 #include "sim/service/camera_service.hpp"
@@ -21,8 +23,8 @@ class Twin {
   /// Throws with one line if a file or an address can't be had.
   explicit Twin(const Configuration& configuration);
 
-  /// "tcp://127.0.0.1:1502", with the port that was found.
-  const std::string& stage_address() const { return modbus_server_.address(); }
+  /// "tcp://127.0.0.1:1502", with the port that was found, or "rtu:///path".
+  const std::string& stage_address() const { return modbus_server_->address(); }
   std::string rig_address() const;
 
   /// Runs in real time until stopped, then keeps the state and ends within a tenth of a second.
@@ -40,7 +42,7 @@ class Twin {
   CameraService camera_service_;
   LineService line_service_;
   BenchService bench_service_;
-  ModbusServer modbus_server_;
+  std::unique_ptr<ModbusServer> modbus_server_;
   RigServer rig_server_;
 };
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/temporary_folder.hpp"
+
 namespace biotomy::sim {
 namespace {
 
@@ -45,6 +47,16 @@ TEST(Configuration, FitsThePhantomToTheCamerasView) {
   EXPECT_DOUBLE_EQ(c.phantom.height_um, 6000);
   EXPECT_DOUBLE_EQ(c.phantom.detail_um, 70);
   EXPECT_DOUBLE_EQ(c.rig.mechanics.face_width_um, 8000);
+}
+
+TEST(Configuration, PutsASerialLineBesideTheFile) {
+  const tests::TemporaryFolder folder;
+  std::ofstream(folder / "sim.toml")
+      << "[stage]\nlisten = \"rtu://stage.line\"\nbaud = 115200\nregister_map = \"m\"\n[rig]\n"
+         "socket = \"unix://x\"\n";
+  const Configuration c = read_configuration(bridge::CheckedTable::read_file(folder / "sim.toml"));
+  EXPECT_EQ(c.stage_listen.path, folder / "stage.line");
+  EXPECT_EQ(c.stage_serial.baud, 115200);
 }
 
 TEST(Configuration, RefusesWhatIsMissingUnknownOrWrong) {

@@ -272,6 +272,42 @@ TEST_F(TwinTest, RefusesRequestsOfAnotherServiceAndGoesOn) {
   EXPECT_THROW(camera.ask(bridge::ConfigureMessage{.exposure_us = 0}, 2s), bridge::RigRefusal);
 }
 
+TEST_F(TwinTest, AnswersOnASerialLineAsOverTcp) {
+  Configuration serial = configuration_;
+  serial.stage_listen = bridge::parse_endpoint("rtu://" + (folder_ / "line").string());
+  serial.rig_socket = folder_ / "serial.sock";
+  std::filesystem::create_symlink("/dev/pts/4000", folder_ / "line");  // a killed twin's
+  {
+    Twin twin(serial);
+    std::stop_source stop;
+    std::future<void> running = std::async(std::launch::async, [&] { twin.run(stop.get_token()); });
+    const Master m(modbus_new_rtu((folder_ / "line").c_str(), 115200, 'N', 8, 1),
+                   [](modbus_t* context) {
+                     modbus_close(context);
+                     modbus_free(context);
+                   });
+    modbus_set_slave(m.get(), 1);
+    modbus_set_response_timeout(m.get(), 5, 0);
+    ASSERT_EQ(modbus_connect(m.get()), 0);
+    EXPECT_EQ(read(m, 0), 0xB107);
+    ASSERT_TRUE(comes(m, 2, 1));
+    ASSERT_EQ(command(m, 1, 1), 7);
+    ASSERT_TRUE(comes(m, 11, 1));
+    std::uint16_t value = 7;
+    EXPECT_EQ(modbus_read_input_registers(m.get(), 900, 1, &value), -1);
+    EXPECT_EQ(errno, EMBXILADD);
+    EXPECT_EQ(modbus_write_bit(m.get(), 0, 1), -1);
+    EXPECT_EQ(errno, EMBXILFUN);
+    modbus_set_slave(m.get(), 2);  // nobody
+    modbus_set_response_timeout(m.get(), 0, 50000);
+    EXPECT_EQ(modbus_read_input_registers(m.get(), 0, 1, &value), -1);
+    EXPECT_EQ(errno, ETIMEDOUT);
+    stop.request_stop();
+    running.get();
+  }
+  EXPECT_FALSE(std::filesystem::is_symlink(folder_ / "line"));
+}
+
 TEST_F(TwinTest, SaysSoWhenItsPortIsTaken) {
   Configuration second = configuration_;
   second.stage_listen.port = port();
