@@ -51,6 +51,12 @@ std::string quoted(const std::string& text) {
   return "\"" + text + "\"";
 }
 
+std::string as_toml(const std::vector<std::string>& texts) {
+  std::string text = "[";
+  for (const std::string& one : texts) text += (text.size() > 1 ? ", " : "") + quoted(one);
+  return text + "]";
+}
+
 /// "least to most", or whichever of the two is a limit; empty if neither is.
 template <class Number, class Print>
 std::string range_text(Number minimum, Number maximum, Print print) {
@@ -356,6 +362,24 @@ std::vector<double> CheckedTable::get(const NumbersKey& key) const {
     values.push_back(*value);
   }
   return values;
+}
+
+std::vector<std::string> CheckedTable::get(const TextsKey& key) const {
+  const std::string expectation = "expected an array of texts";
+  document_->declare({path_, key.name, "texts", key.fallback ? as_toml(*key.fallback) : "", "", "",
+                      key.description});
+  const toml::node* node = document_->find(path_, key.name, key.fallback.has_value(), expectation);
+  if (node == nullptr) return key.fallback.value_or(std::vector<std::string>());
+
+  const std::string where = joined(path_, key.name);
+  const toml::array* array = node->as_array();
+  if (array == nullptr) document_->reject(node, where, expectation);
+  std::vector<std::string> texts;
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) document_->reject(node, where, expectation);
+    texts.push_back(element.as_string()->get());
+  }
+  return texts;
 }
 
 std::filesystem::path CheckedTable::resolve(const std::string& path) const {

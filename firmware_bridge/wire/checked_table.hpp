@@ -45,6 +45,7 @@ class CheckedTable {
   std::int64_t get(const IntegerKey& key) const;
   double get(const NumberKey& key) const;
   std::vector<double> get(const NumbersKey& key) const;
+  std::vector<std::string> get(const TextsKey& key) const;
 
   /// A path as the file means it: relative ones are relative to the file's folder.
   std::filesystem::path resolve(const std::string& path) const;

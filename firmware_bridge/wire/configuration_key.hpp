@@ -58,11 +58,18 @@ struct NumbersKey {
   std::string description{};
 };
 
+/// An array of texts, such as a program and its arguments.
+struct TextsKey {
+  std::string name;
+  std::optional<std::vector<std::string>> fallback{};
+  std::string description{};
+};
+
 /// A key as a reference page shows it.
 struct DeclaredKey {
   std::string table;  ///< "job", "lines.lamp"; empty at the top
   std::string name;
-  std::string type;           ///< "text", "flag", "integer", "number", "numbers"
+  std::string type;           ///< "text", "texts", "flag", "integer", "number", "numbers"
   std::string default_value;  ///< as TOML; empty: required
   std::string unit;
   std::string allowed;  ///< "1 to 100", "\"pause\" or \"accept\""; empty: anything

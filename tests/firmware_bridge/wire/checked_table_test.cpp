@@ -35,6 +35,16 @@ TEST(CheckedTable, GivesWhatTheFileSays) {
   EXPECT_NO_THROW(table.refuse_unknown_keys());
 }
 
+TEST(CheckedTable, GivesAnArrayOfTexts) {
+  const TextsKey key{.name = "command", .fallback = std::vector<std::string>{}};
+  EXPECT_THAT(parse("command = ['mail', '', 'anna']").get(key), ElementsAre("mail", "", "anna"));
+  EXPECT_TRUE(parse("").get(key).empty());
+  EXPECT_EQ(refusal([&] { parse("command = 'mail anna'").get(key); }),
+            "rig.toml:1: command: expected an array of texts");
+  EXPECT_EQ(refusal([&] { parse("command = ['mail', 1]").get(key); }),
+            "rig.toml:1: command: expected an array of texts");
+}
+
 TEST(CheckedTable, GivesTheFallbackWhereTheFileIsSilent) {
   const CheckedTable table = parse("").table("a").table("b");
   EXPECT_EQ(table.get(TextKey{.name = "text", .fallback = "y"}), "y");
