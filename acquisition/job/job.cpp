@@ -220,11 +220,11 @@ void Job::go(JobEvent event, TimePoint now) {
                            to_string(state_));
   }
   if (event == JobEvent::attempts_exhausted) {
-    pause_reason_ = "no frame of layer " + std::to_string(cycle_->layer()) +
-                    " was good enough in " + std::to_string(settings_.ladder.max_attempts) +
-                    " attempts (the last: " + cycle_->last_rejection() +
-                    "): look at it, then resume";
-    note("alarm", pause_reason_);
+    pause_cause_ = "no frame of layer " + std::to_string(cycle_->layer()) + " was good enough in " +
+                   std::to_string(settings_.ladder.max_attempts) +
+                   " attempts (the last: " + cycle_->last_rejection() +
+                   "): look at it, then resume";
+    note("alarm", pause_cause_);
   }
   // A pause that was asked for is taken as soon as the table allows it.
   if (pause_requested_) next = next_state(*next, JobEvent::pause).value_or(*next);
@@ -233,6 +233,7 @@ void Job::go(JobEvent event, TimePoint now) {
 
 void Job::enter(JobState state, TimePoint now) {
   const JobState from = std::exchange(state_, state);
+  if (state != JobState::pausing && state != JobState::paused) pause_cause_.clear();
   step_begin_ = now;
   step_command_begun_ = false;
   if (is_layer_step(state)) {
@@ -371,9 +372,19 @@ void Job::lamp_and_tower(bool tower) {
 }
 
 void Job::note(const char* kind, const std::string& text) {
-  if (!keeper_) return;
-  keeper_->post([kind, state = to_string(state_), layer = cycle_ ? cycle_->layer() : 0,
-                 text](SampleRecords& records) { records.record_event(kind, state, layer, text); });
+  JobEventRow row{kind, to_string(state_), cycle_ ? cycle_->layer() : 0, text,
+                  utc_text(surroundings_.wall_clock())};
+  if (keeper_) {
+    keeper_->post([row = std::move(row)](SampleRecords& records) { records.record_event(row); });
+  } else {
+    early_notes_.add(std::move(row));
+  }
+}
+
+void Job::write_early_notes() {
+  keeper_->post([rows = early_notes_.take()](SampleRecords& records) {
+    for (const JobEventRow& row : rows) records.record_event(row);
+  });
 }
 
 std::string Job::waiting_for() const {
@@ -409,7 +420,7 @@ std::string Job::waiting_for() const {
                                                   : "waits for the rig to be parked";
     case JobState::paused:
       return "waits for an operator to resume" +
-             (pause_reason_.empty() ? std::string() : ": " + pause_reason_);
+             (pause_cause_.empty() ? std::string() : ": " + pause_cause_);
     default:
       return "";
   }
@@ -428,7 +439,7 @@ void Job::publish() {
   status.state = state_;
   status.waiting_for = waiting_for();
   status.pause_requested = pause_requested_;
-  status.pause_reason = pause_reason_;
+  status.pause_cause = pause_cause_;
   status.job = settings_.plan.name;
   status.sample = settings_.plan.sample.string();
   status.layers = settings_.plan.layers;
@@ -441,6 +452,7 @@ void Job::publish() {
   if (cycle_) {
     status.layer = cycle_->layer();
     status.attempt = cycle_->attempt();
+    status.last_attempt = cycle_->last_judged();
     status.last_layer = cycle_->last_committed();
     status.disk_left_layers = cycle_->disk_left_layers();
   }

@@ -9,6 +9,7 @@
 
 #include "acquisition/job/conditioning.hpp"
 #include "acquisition/job/earlier_run.hpp"
+#include "acquisition/job/early_notes.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/job_status.hpp"
@@ -97,6 +98,7 @@ class Job {
   void park_after_fault(TimePoint now);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);
+  void write_early_notes();
   std::string waiting_for() const;
   std::optional<double> seconds_left() const;
 
@@ -115,9 +117,9 @@ class Job {
   bool went_on_by_itself_ = false;
   std::optional<TimePoint> good_since_;  ///< the rig, while it may go on by itself
   std::optional<TimePoint> first_tick_;
-  std::string pause_reason_;  ///< why it paused, when no operator asked for it
   bool start_after_reset_ = false;
   bool pause_requested_ = false;
+  std::string pause_cause_;  ///< as in JobStatus
   struct Answer {
     std::promise<OperatorReply> promise;
     OperatorReply reply;
@@ -148,6 +150,7 @@ class Job {
   TimePoint disk_asked_at_{};
   std::int64_t disk_left_layers_ = 0;
   std::optional<RecordKeeper> keeper_;
+  EarlyNotes early_notes_;
   std::optional<VolumeFeed> feed_;
   std::optional<Continuation> continuation_;
   std::unique_ptr<LayerCycle> cycle_;

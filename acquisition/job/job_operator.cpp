@@ -23,6 +23,7 @@ OperatorReply refused(std::string sentence) {
 }  // namespace
 
 void Job::hear_operator(TimePoint now) {
+  for (const std::string& remark : parts_.desk.take_remarks()) note("operator", remark);
   for (OperatorDesk::Request& request : parts_.desk.take()) {
     may_go_on_by_itself_ = false;  // there is a person
     OperatorReply reply;
@@ -33,8 +34,9 @@ void Job::hear_operator(TimePoint now) {
       reply = refused(error.what());
     }
     const std::string text = std::string(to_string(request.command)) +
+                             (request.who.empty() ? "" : " by " + request.who) +
                              (request.reason.empty() ? "" : " (" + request.reason + ")") +
-                             (reply.accepted ? "" : " was refused: " + reply.sentence);
+                             (reply.accepted ? ": " : " was refused: ") + reply.sentence;
     log_info("operator", text);
     note("operator", text);
     if (state_ == JobState::resetting && reply.accepted && !reset_answer_) {

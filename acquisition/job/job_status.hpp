@@ -7,6 +7,7 @@
 #include <string>
 
 #include "acquisition/job/job_states.hpp"
+#include "acquisition/job/judged_attempt.hpp"
 #include "acquisition/job/layer_cycle.hpp"
 #include "acquisition/records/volume_feed.hpp"
 #include "firmware_bridge/lines/lines.hpp"
@@ -24,7 +25,7 @@ struct JobStatus {
   JobState state = JobState::faulted;
   std::string waiting_for;  ///< what the step waits for, in words
   bool pause_requested = false;
-  std::string pause_reason;  ///< why it pauses; empty when an operator asked for it
+  std::string pause_cause;  ///< why the job paused by itself; empty when an operator asked
   std::string job;
   std::string sample;
   std::int64_t layers = 0;     ///< of the whole job
@@ -35,6 +36,7 @@ struct JobStatus {
   bool controller_answers = false;
   std::optional<bridge::StageStatus> stage;  ///< the last that was read
   bridge::SafetyInputs lines;
+  std::optional<JudgedAttempt> last_attempt;
   std::optional<CommittedLayer> last_layer;
   std::optional<std::int64_t> disk_left_layers;
   std::optional<Alarm> alarm;

@@ -11,7 +11,6 @@ namespace biotomy::acquisition {
 void Job::begin_preflight() {
   job_begun_ = true;
   alarm_.reset();
-  pause_reason_.clear();
   supervision_.forget_positions();
   lamp_and_tower(false);
   continuation_.reset();
@@ -36,6 +35,7 @@ std::optional<JobEvent> Job::poll_preflight() {
   commands_.raise_to(std::max(
       {findings_.journal.last_sequence, fresh_->sequence_started, fresh_->sequence_finished}));
   keeper_.emplace(parts_.worker, findings_.records);
+  write_early_notes();
   feed_.emplace(parts_.volume_worker, surroundings_.open_volume(findings_.records->sample(),
                                                                 settings_.store.volume_layout));
   committed_ = findings_.journal.last_committed;

@@ -129,6 +129,7 @@ void LayerCycle::begin_assessment() {
 
 std::optional<JobEvent> LayerCycle::judge() {
   in_hand_->assessment = assessment_.get();
+  remember_judgement();
   expectation_.previous_sequence = in_hand_->frame.sequence;
   if (in_hand_->assessment.verdict == Verdict::accepted) return JobEvent::frame_accepted;
 
@@ -151,10 +152,16 @@ std::optional<JobEvent> LayerCycle::judge() {
   if (settings_.ladder.exhausted == LadderSettings::Exhausted::accept && best_rejected_) {
     in_hand_ = std::exchange(best_rejected_, nullptr);
     in_hand_->assessment.verdict = Verdict::accepted_with_flag;
+    remember_judgement();
     return JobEvent::frame_accepted;
   }
   if (best_rejected_) reject(*std::exchange(best_rejected_, nullptr));
   return JobEvent::attempts_exhausted;
+}
+
+void LayerCycle::remember_judgement() {
+  last_judged_ = JudgedAttempt{in_hand_->layer, in_hand_->attempt, in_hand_->assessment.verdict,
+                               in_hand_->assessment.slug};
 }
 
 void LayerCycle::reject(const JudgedFrame& frame) {

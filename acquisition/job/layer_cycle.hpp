@@ -11,6 +11,7 @@
 #include "acquisition/job/grind_step.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
+#include "acquisition/job/judged_attempt.hpp"
 #include "acquisition/job/stage_commands.hpp"
 #include "acquisition/job/worker.hpp"
 #include "acquisition/records/record_keeper.hpp"
@@ -65,6 +66,7 @@ class LayerCycle {
   std::int64_t disk_left_layers() const { return disk_left_layers_; }
   const std::string& last_rejection() const { return last_rejection_; }
   const std::optional<CommittedLayer>& last_committed() const { return last_committed_; }
+  const std::optional<JudgedAttempt>& last_judged() const { return last_judged_; }
 
  private:
   struct Stored {
@@ -76,6 +78,7 @@ class LayerCycle {
   void begin_assessment();
   void begin_storing();
   std::optional<JobEvent> judge();
+  void remember_judgement();
   std::optional<JobEvent> layer_stored();
   void reject(const JudgedFrame& frame);
 
@@ -100,6 +103,7 @@ class LayerCycle {
   std::future<Stored> stored_;
   std::string last_rejection_;  ///< why the last frame that was rejected was not good enough
   std::optional<CommittedLayer> last_committed_;
+  std::optional<JudgedAttempt> last_judged_;
 };
 
 }  // namespace biotomy::acquisition

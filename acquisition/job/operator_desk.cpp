@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace biotomy::acquisition {
+namespace {
+
+constexpr std::size_t kMostRemarks = 1000;  // lie there only when the control thread hangs
+
+}  // namespace
 
 const char* to_string(OperatorCommand command) {
   switch (command) {
@@ -33,17 +38,28 @@ std::optional<OperatorCommand> operator_command(std::string_view name) {
   return std::nullopt;
 }
 
-std::future<OperatorReply> OperatorDesk::post(OperatorCommand command, std::string reason) {
-  Request request{command, std::move(reason), {}};
+std::future<OperatorReply> OperatorDesk::post(OperatorCommand command, std::string reason,
+                                              std::string who) {
+  Request request{command, std::move(reason), std::move(who), {}};
   std::future<OperatorReply> reply = request.reply.get_future();
   const std::scoped_lock lock(mutex_);
   requests_.push_back(std::move(request));
   return reply;
 }
 
+void OperatorDesk::remark(std::string text) {
+  const std::scoped_lock lock(mutex_);
+  if (remarks_.size() < kMostRemarks) remarks_.push_back(std::move(text));
+}
+
 std::vector<OperatorDesk::Request> OperatorDesk::take() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(requests_, {});
+}
+
+std::vector<std::string> OperatorDesk::take_remarks() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(remarks_, {});
 }
 
 }  // namespace biotomy::acquisition

@@ -35,17 +35,24 @@ class OperatorDesk {
   struct Request {
     OperatorCommand command = OperatorCommand::start;
     std::string reason;  ///< the operator's own words, for the journal
+    std::string who;     ///< gave it, and from where; empty when it was the system
     std::promise<OperatorReply> reply;
   };
 
-  std::future<OperatorReply> post(OperatorCommand command, std::string reason);
+  std::future<OperatorReply> post(OperatorCommand command, std::string reason,
+                                  std::string who = "");
+
+  /// Something that operators did, or tried, and that is no command: for the journal.
+  void remark(std::string text);
 
   /// For the control thread: all that lies there, in order. Each must be answered.
   std::vector<Request> take();
+  std::vector<std::string> take_remarks();
 
  private:
   std::mutex mutex_;
   std::vector<Request> requests_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace biotomy::acquisition

@@ -50,6 +50,15 @@ struct FocusRow {
   std::vector<Point> points;
 };
 
+/// Something that happened in a job.
+struct JobEventRow {
+  std::string kind;   ///< "state", "alarm", "operator", "recovery"
+  std::string state;  ///< of the job at that time
+  std::int64_t layer = 0;
+  std::string text;
+  std::string at;  ///< ISO 8601, UTC
+};
+
 /// A layer whose image is on disk and whose record is committed.
 struct LayerRow {
   std::int64_t layer = 0;

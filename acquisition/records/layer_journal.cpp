@@ -152,17 +152,16 @@ void LayerJournal::record_focus(const FocusRow& focus, const std::string& at) {
   });
 }
 
-void LayerJournal::record_event(const char* kind, const std::string& state, std::int64_t layer,
-                                const std::string& text, const std::string& at) {
+void LayerJournal::record_event(const JobEventRow& event) {
   with_journal(state_->path, [&] {
     SQLite::Statement insert(
         state_->database,
         "INSERT INTO events (at, kind, state, layer, text) VALUES (?, ?, ?, ?, ?)");
-    insert.bind(1, at);
-    insert.bind(2, kind);
-    insert.bind(3, state);
-    insert.bind(4, layer);
-    insert.bind(5, text);
+    insert.bind(1, event.at);
+    insert.bind(2, event.kind);
+    insert.bind(3, event.state);
+    insert.bind(4, event.layer);
+    insert.bind(5, event.text);
     insert.exec();
   });
 }

@@ -27,8 +27,7 @@ class LayerJournal {
 
   void record_attempt(const AttemptRow& attempt);
   void record_focus(const FocusRow& focus, const std::string& at);
-  void record_event(const char* kind, const std::string& state, std::int64_t layer,
-                    const std::string& text, const std::string& at);
+  void record_event(const JobEventRow& event);
 
   /// Records the accepted attempt and commits its layer, both or neither.
   void commit_layer(const AttemptRow& attempt, std::uint64_t bytes, const std::string& at);

@@ -113,9 +113,8 @@ void SampleRecords::record_focus(const FocusRow& focus) {
   journal_.record_focus(focus, now());
 }
 
-void SampleRecords::record_event(const char* kind, const std::string& state, std::int64_t layer,
-                                 const std::string& text) {
-  journal_.record_event(kind, state, layer, text, now());
+void SampleRecords::record_event(const JobEventRow& event) {
+  journal_.record_event(event);
 }
 
 void SampleRecords::record_rejected(const JudgedFrame& frame) {

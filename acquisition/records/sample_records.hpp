@@ -45,8 +45,7 @@ class SampleRecords {
   void end_grind(std::uint32_t sequence, bridge::CommandResult result,
                  const bridge::StageStatus& telemetry);
   void record_focus(const FocusRow& focus);
-  void record_event(const char* kind, const std::string& state, std::int64_t layer,
-                    const std::string& text);
+  void record_event(const JobEventRow& event);
 
   /// Keeps a small picture and the record of a frame that is not the layer.
   void record_rejected(const JudgedFrame& frame);

@@ -77,6 +77,7 @@ std::string status_json(const JobStatus& status) {
                  {"state", to_string(status.state)},
                  {"waiting_for", status.waiting_for},
                  {"pause_requested", status.pause_requested},
+                 {"pause_cause", status.pause_cause},
                  {"job", status.job},
                  {"sample", status.sample},
                  {"layer", status.layer},

@@ -47,7 +47,7 @@ TEST(JobConditioning, CanBePausedAndResumed) {
   ASSERT_TRUE(bench.reach(JobState::conditioning));
   EXPECT_TRUE(bench.say(OperatorCommand::pause).accepted);
   ASSERT_TRUE(bench.reach(JobState::paused));
-  EXPECT_EQ(bench.board.look()->pause_reason, "");
+  EXPECT_EQ(bench.board.look()->pause_cause, "");
   EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
   EXPECT_TRUE(bench.reach(JobState::conditioning)) << bench.alarm();
 }
@@ -158,12 +158,12 @@ TEST(JobPause, TellsWhyWhenNobodyAskedForIt) {
   while (bench.board.look()->committed < 1) bench.tick();
   bench.camera.black_frames = 1000000;
   ASSERT_TRUE(bench.reach(JobState::paused));
-  EXPECT_THAT(bench.board.look()->pause_reason, HasSubstr("no frame of layer 2 was good enough"));
+  EXPECT_THAT(bench.board.look()->pause_cause, HasSubstr("no frame of layer 2 was good enough"));
   EXPECT_THAT(bench.board.look()->waiting_for, HasSubstr("no frame of layer 2"));
   bench.camera.black_frames = 0;
   bench.say(OperatorCommand::resume);
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
-  EXPECT_EQ(bench.board.look()->pause_reason, "");
+  EXPECT_EQ(bench.board.look()->pause_cause, "");
 }
 
 }  // namespace
