@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+
+namespace biotomy::acquisition {
+
+/// A message did not reach its receiver; the text says why.
+class DeliveryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A way by which messages reach a person.
+class Channel {
+ public:
+  virtual ~Channel() = default;
+
+  /// "command", "webhook": names its part of the queue.
+  virtual std::string name() const = 0;
+
+  /// Delivers one message (JSON) within the time, and gives up early when asked to stop. Throws
+  /// DeliveryError when it was not, or perhaps not, delivered.
+  virtual void deliver(const std::string& message, std::chrono::milliseconds time_out,
+                       const std::stop_token& stop) = 0;
+};
+
+}  // namespace biotomy::acquisition
