@@ -1,93 +1,79 @@
 #include "acquisition/service/access.hpp"
 
-#include <array>
-#include <cerrno>
-#include <cstring>
-
-#include <fcntl.h>
-#include <openssl/crypto.h>
-#include <openssl/rand.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include "firmware_bridge/wire/unique_fd.hpp"
+#include <utility>
 
 namespace biotomy::acquisition {
 namespace {
 
-constexpr std::size_t kTokenBytes = 32;
-constexpr std::size_t kShortestToken = 16;
-constexpr std::size_t kLongestFile = 4096;
+constexpr std::string_view kScheme = "Bearer ";
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-  throw AccessError("the token file " + file.string() + " " + what);
+Ruling refused(int status, std::string sentence) {
+  return {.granted = false,
+          .who = {},
+          .status = status,
+          .sentence = std::move(sentence),
+          .retry_after = std::chrono::seconds(0)};
 }
 
-std::string random_token() {
-  std::array<unsigned char, kTokenBytes> bytes{};
-  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
-    throw AccessError("no random numbers for a token: the system's generator failed");
-  }
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string token;
-  for (const unsigned char byte : bytes) {
-    token += kDigits[byte >> 4U];
-    token += kDigits[byte & 15U];
-  }
-  return token;
-}
-
-std::string make_token(const std::filesystem::path& file, const bridge::UniqueFd& descriptor) {
-  std::string token = random_token();
-  const std::string line = token + "\n";
-  if (::write(descriptor.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
-      ::fsync(descriptor.get()) != 0) {
-    const std::string reason = std::strerror(errno);
-    ::unlink(file.c_str());
-    fail(file, "cannot be written: " + reason);
-  }
-  return token;
-}
-
-std::string read_token(const std::filesystem::path& file, const bridge::UniqueFd& descriptor) {
-  struct stat information {};
-  if (::fstat(descriptor.get(), &information) != 0) {
-    fail(file, std::string("cannot be read: ") + std::strerror(errno));
-  }
-  if ((information.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    fail(file, "can be read by others: chmod 600 it");
-  }
-  std::array<char, kLongestFile> text{};
-  const ssize_t length = ::read(descriptor.get(), text.data(), text.size());
-  if (length < 0) fail(file, std::string("cannot be read: ") + std::strerror(errno));
-  std::string token(text.data(), static_cast<std::size_t>(length));
-  token.erase(token.find_last_not_of(" \t\r\n") + 1);
-  if (token.size() < kShortestToken || token.find_first_of(" \t\r\n") != std::string::npos) {
-    fail(file, "must hold one token of at least 16 characters: remove it to have a new one made");
-  }
-  return token;
+Ruling too_many(const std::string& what, std::chrono::milliseconds wait) {
+  const auto seconds = std::chrono::ceil<std::chrono::seconds>(wait);
+  Ruling ruling = refused(429, "too many " + what + " from this address: try again in " +
+                                   std::to_string(seconds.count()) + " s");
+  ruling.retry_after = seconds;
+  return ruling;
 }
 
 }  // namespace
 
-std::string read_or_make_token(const std::filesystem::path& file) {
-  const bridge::UniqueFd made(
-      ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
-  if (made.valid()) return make_token(file, made);
-  if (errno != EEXIST) fail(file, std::string("cannot be made: ") + std::strerror(errno));
+Access::Access(Credentials credentials, const AccessSettings& settings, Clock clock,
+               Refused refused)
+    : credentials_(std::move(credentials)),
+      settings_(settings),
+      clock_(std::move(clock)),
+      refused_(std::move(refused)),
+      failures_(settings.failed_tokens_per_minute),
+      commands_(settings.commands_per_minute) {}
 
-  const bridge::UniqueFd found(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!found.valid()) fail(file, std::string("cannot be read: ") + std::strerror(errno));
-  return read_token(file, found);
+Ruling Access::reading(const std::string& client, std::string_view authorization,
+                       const std::string& what) {
+  if (!settings_.reading_needs_token) return {.granted = true, .who = client, .sentence = {}};
+  const std::scoped_lock lock(mutex_);
+  const TimePoint now = clock_();
+  return recorded(identify(client, authorization, now), client, what, now);
 }
 
-Access check_access(std::string_view authorization, std::string_view token) {
-  constexpr std::string_view kScheme = "Bearer ";
-  if (authorization.substr(0, kScheme.size()) != kScheme) return Access::no_token;
-  const std::string_view given = authorization.substr(kScheme.size());
-  if (given.size() != token.size()) return Access::wrong_token;
-  return CRYPTO_memcmp(given.data(), token.data(), token.size()) == 0 ? Access::granted
-                                                                      : Access::wrong_token;
+Ruling Access::command(const std::string& client, std::string_view authorization,
+                       const std::string& what) {
+  const std::scoped_lock lock(mutex_);
+  const TimePoint now = clock_();
+  Ruling ruling = identify(client, authorization, now);
+  if (ruling.granted) {
+    if (const auto wait = commands_.take(client, now)) ruling = too_many("commands", *wait);
+  }
+  return recorded(std::move(ruling), client, what, now);
+}
+
+Ruling Access::identify(const std::string& client, std::string_view authorization, TimePoint now) {
+  if (authorization.substr(0, kScheme.size()) != kScheme) {
+    return refused(401, "this needs the header Authorization: Bearer <token>");
+  }
+  if (const auto wait = failures_.wait_of(client, now)) return too_many("wrong tokens", *wait);
+  const auto owner = credentials_.owner_of(authorization.substr(kScheme.size()));
+  if (!owner) {
+    failures_.take(client, now);
+    return refused(403, "this is not a token of this rig");
+  }
+  return {.granted = true, .who = *owner + " from " + client, .sentence = {}};
+}
+
+Ruling Access::recorded(Ruling ruling, const std::string& client, const std::string& what,
+                        TimePoint now) {
+  if (ruling.granted) return ruling;
+  const std::string reason = ruling.status == 401   ? "no token"
+                             : ruling.status == 403 ? "a wrong token"
+                                                    : "too many attempts";
+  if (const auto line = refusals_.line(client, what + ", " + reason, now)) refused_(*line);
+  return ruling;
 }
 
 }  // namespace biotomy::acquisition

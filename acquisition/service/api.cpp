@@ -1,5 +1,7 @@
 #include "acquisition/service/api.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <future>
 #include <optional>
@@ -10,7 +12,6 @@
 
 #include "acquisition/log.hpp"
 #include "acquisition/records/journal_reader.hpp"
-#include "acquisition/service/access.hpp"
 #include "acquisition/service/status_json.hpp"
 #include "acquisition/service/status_page.hpp"
 
@@ -22,6 +23,12 @@ constexpr std::int64_t kLargestLimit = 1000;
 constexpr std::int64_t kLargestLayer = 999999;
 constexpr std::size_t kLongestReason = 500;
 constexpr std::string_view kControl = "/api/v1/control/";
+constexpr const char* kHealth = "/healthz";
+constexpr const char* kMetrics = "/metrics";
+constexpr const char* kStatus = "/api/v1/status";
+constexpr const char* kLayers = "/api/v1/layers";
+constexpr const char* kPage = "/";
+constexpr std::array kReadable = {kHealth, kMetrics, kStatus, kLayers, kPage};
 
 ApiResponse json_response(std::string body) {
   return {
@@ -61,39 +68,54 @@ ApiResponse wrong_method(const ApiRequest& request, const char* allowed) {
   return response;
 }
 
+ApiResponse refusal(const Ruling& ruling) {
+  ApiResponse response = error_response(ruling.status, ruling.sentence);
+  if (ruling.status == 401) response.headers["WWW-Authenticate"] = "Bearer";
+  if (ruling.status == 429) {
+    response.headers["Retry-After"] = std::to_string(ruling.retry_after.count());
+  }
+  return response;
+}
+
 }  // namespace
 
-Api::Api(const StatusBoard& board, OperatorDesk& desk, std::filesystem::path journal,
-         std::string token, std::chrono::milliseconds reply_time_out)
-    : board_(board),
-      desk_(desk),
-      journal_(std::move(journal)),
-      token_(std::move(token)),
-      reply_time_out_(reply_time_out) {}
+Api::Api(ApiParts parts, std::chrono::milliseconds reply_time_out)
+    : parts_(std::move(parts)), reply_time_out_(reply_time_out) {}
 
 ApiResponse Api::answer(const ApiRequest& request) const {
   try {
     if (request.path.starts_with(kControl)) {
       return control(request.path.substr(kControl.size()), request);
     }
-    const bool known = request.path == "/" || request.path == "/healthz" ||
-                       request.path == "/api/v1/status" || request.path == "/api/v1/layers";
-    if (!known) return error_response(404, "there is no " + request.path);
+    if (std::find(kReadable.begin(), kReadable.end(), request.path) == kReadable.end()) {
+      return error_response(404, "there is no " + request.path);
+    }
     if (request.method != "GET") return wrong_method(request, "GET");
-
-    if (request.path == "/healthz") return json_response(R"({"status":"ok"})");
-    if (request.path == "/api/v1/status") return json_response(status_json(*board_.look()));
-    if (request.path == "/api/v1/layers") return layers(request);
-    ApiResponse page{.status = 200,
-                     .content_type = "text/html; charset=utf-8",
-                     .body = status_page(*board_.look()),
-                     .headers = {}};
-    page.headers["Content-Security-Policy"] = "default-src 'none'; style-src 'unsafe-inline'";
-    return page;
+    if (request.path == kHealth) return json_response(R"({"status":"ok"})");
+    const Ruling ruling =
+        parts_.access.reading(request.client, request.authorization, "reading " + request.path);
+    return ruling.granted ? read(request) : refusal(ruling);
   } catch (const std::exception& error) {
     log_error("http", request.path + ": " + error.what());
     return error_response(500, error.what());
   }
+}
+
+ApiResponse Api::read(const ApiRequest& request) const {
+  if (request.path == kStatus) return json_response(status_json(*parts_.board.look()));
+  if (request.path == kLayers) return layers(request);
+  if (request.path == kMetrics) {
+    return {.status = 200,
+            .content_type = "text/plain; version=0.0.4; charset=utf-8",
+            .body = parts_.metrics(),
+            .headers = {}};
+  }
+  ApiResponse page{.status = 200,
+                   .content_type = "text/html; charset=utf-8",
+                   .body = status_page(*parts_.board.look()),
+                   .headers = {}};
+  page.headers["Content-Security-Policy"] = "default-src 'none'; style-src 'unsafe-inline'";
+  return page;
 }
 
 ApiResponse Api::layers(const ApiRequest& request) const {
@@ -101,8 +123,8 @@ ApiResponse Api::layers(const ApiRequest& request) const {
   if (!from) return error_response(400, "from must be a layer number, 1 to 999999");
   const auto limit = number(request, "limit", kDefaultLimit, 1, kLargestLimit);
   if (!limit) return error_response(400, "limit must be a number from 1 to 1000");
-  if (!std::filesystem::exists(journal_)) return json_response(layers_json({}, 0));
-  const JournalReader reader(journal_);
+  if (!std::filesystem::exists(parts_.journal)) return json_response(layers_json({}, 0));
+  const JournalReader reader(parts_.journal);
   return json_response(
       layers_json(reader.committed_layers(*from, *limit), reader.committed_count()));
 }
@@ -114,23 +136,13 @@ ApiResponse Api::control(const std::string& name, const ApiRequest& request) con
                                    "\": it is start, pause, resume, abort or acknowledge");
   }
   if (request.method != "POST") return wrong_method(request, "POST");
-  switch (check_access(request.authorization, token_)) {
-    case Access::no_token: {
-      ApiResponse response =
-          error_response(401, "commands need the header Authorization: Bearer <token>");
-      response.headers["WWW-Authenticate"] = "Bearer";
-      return response;
-    }
-    case Access::wrong_token:
-      return error_response(403, "this is not the token of this rig");
-    case Access::granted:
-      break;
-  }
+  const Ruling ruling = parts_.access.command(request.client, request.authorization, name);
+  if (!ruling.granted) return refusal(ruling);
   const std::optional<std::string> reason = reason_of(request.body);
   if (!reason) {
     return error_response(400, R"(the body must be empty or {"reason": "a few words"})");
   }
-  std::future<OperatorReply> reply = desk_.post(*command, *reason);
+  std::future<OperatorReply> reply = parts_.desk.post(*command, *reason, ruling.who);
   if (reply.wait_for(reply_time_out_) != std::future_status::ready) {
     return error_response(503,
                           "the rig's control did not answer in time; look at the status "

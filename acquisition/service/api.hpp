@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
 #include "acquisition/job/job_status.hpp"
 #include "acquisition/job/operator_desk.hpp"
+#include "acquisition/service/access.hpp"
 
 namespace biotomy::acquisition {
 
@@ -16,6 +18,7 @@ struct ApiRequest {
   std::map<std::string, std::string> query;
   std::string authorization;  ///< value of the header; empty if there is none
   std::string body;
+  std::string client;  ///< the address that it came from
 };
 
 struct ApiResponse {
@@ -25,26 +28,31 @@ struct ApiResponse {
   std::map<std::string, std::string> headers;
 };
 
+/// What the API looks at and speaks to. All outlive it.
+struct ApiParts {
+  const StatusBoard& board;
+  OperatorDesk& desk;
+  Access& access;
+  std::filesystem::path journal;         ///< where the sample's journal is or will be
+  std::function<std::string()> metrics;  ///< the text of /metrics, for any thread
+};
+
 /// What the daemon answers over HTTP, without a word of HTTP's own. It never touches a device: it
 /// looks at the status board and at the journal, and lays commands on the operator's desk. Safe for
 /// many threads.
 class Api {
  public:
-  /// `journal` is where the sample's journal is or will be. Board and desk outlive the API.
-  Api(const StatusBoard& board, OperatorDesk& desk, std::filesystem::path journal,
-      std::string token, std::chrono::milliseconds reply_time_out = std::chrono::seconds(5));
+  explicit Api(ApiParts parts, std::chrono::milliseconds reply_time_out = std::chrono::seconds(5));
 
   /// Never throws: what goes wrong is a response with {"error": {"code", "message"}}.
   ApiResponse answer(const ApiRequest& request) const;
 
  private:
+  ApiResponse read(const ApiRequest& request) const;
   ApiResponse layers(const ApiRequest& request) const;
   ApiResponse control(const std::string& name, const ApiRequest& request) const;
 
-  const StatusBoard& board_;
-  OperatorDesk& desk_;
-  std::filesystem::path journal_;
-  std::string token_;
+  ApiParts parts_;
   std::chrono::milliseconds reply_time_out_;
 };
 

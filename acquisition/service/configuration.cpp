@@ -255,30 +255,6 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
              "part of the pixels that may be at full scale in a colour");
 }
 
-ServiceConfiguration read_service(const CheckedTable& table) {
-  ServiceConfiguration service;
-  const std::string listen =
-      table.get(TextKey{.name = "listen",
-                        .fallback = "127.0.0.1:8080",
-                        .description = "address and port of the web page and the API"});
-  try {
-    const bridge::Endpoint endpoint = bridge::parse_endpoint("tcp://" + listen);
-    service.host = endpoint.host;
-    service.port = endpoint.port;
-  } catch (const bridge::ConfigurationError&) {
-    table.reject("listen", "\"" + listen + "\" is not possible; expected \"address:port\"");
-  }
-  service.token_file = table.resolve(table.get(
-      TextKey{.name = "token_file",
-              .fallback = "biotomy.token",
-              .description = "holds the token that commands must carry; made when missing"}));
-  service.tick =
-      duration(table, "tick_ms", service.tick, "the rig is looked after so often", 1, 200);
-  service.stop_limit = duration(table, "stop_limit_ms", service.stop_limit,
-                                "when the daemon is told to end: time to come to rest");
-  return service;
-}
-
 Configuration read(const CheckedTable& document) {
   Configuration configuration;
   configuration.job.plan = read_job(document.table("job"));
@@ -290,6 +266,7 @@ Configuration read(const CheckedTable& document) {
   configuration.job.store = read_store(document.table("store"));
   configuration.job.limits = read_safety(document.table("safety"));
   configuration.service = read_service(document.table("service"));
+  configuration.notify = read_notify(document.table("notify"));
   return configuration;
 }
 

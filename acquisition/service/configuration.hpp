@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "acquisition/job/job_settings.hpp"
+#include "acquisition/service/notify_section.hpp"
+#include "acquisition/service/service_section.hpp"
 #include "firmware_bridge/camera/libcamera_camera.hpp"
 #include "firmware_bridge/lines/gpiod_lines.hpp"
 #include "firmware_bridge/wire/configuration_key.hpp"
@@ -35,20 +37,13 @@ struct CameraConfiguration {
   bridge::LibcameraSettings libcamera;
 };
 
-struct ServiceConfiguration {
-  std::string host = "127.0.0.1";
-  int port = 8080;
-  std::filesystem::path token_file;
-  std::chrono::milliseconds tick{20};
-  std::chrono::milliseconds stop_limit{120000};
-};
-
 /// All of rig.toml.
 struct Configuration {
   StageConfiguration stage;
   LinesConfiguration lines;
   CameraConfiguration camera;
   ServiceConfiguration service;
+  NotifyConfiguration notify;
   JobSettings job;
 };
 

@@ -24,6 +24,9 @@ const char* about(const std::string& table) {
       {"store", "How images and volume are kept."},
       {"safety", "Beyond these limits the wheel stops and a person is called."},
       {"service", "The web page, the HTTP API and the daemon itself."},
+      {"notify",
+       "Whom the daemon tells when a person is needed, and when the job is done; see operation.md. "
+       "Without a command and a webhook it tells nobody."},
   };
   const auto found = abouts.find(table);
   return found == abouts.end() ? "" : found->second;

@@ -29,7 +29,8 @@ ApiRequest api_request(const httplib::Request& request) {
                    .path = request.path,
                    .query = {},
                    .authorization = request.get_header_value("Authorization"),
-                   .body = request.body};
+                   .body = request.body,
+                   .client = request.remote_addr};
   for (const auto& [name, value] : request.params) asked.query[name] = value;
   return asked;
 }

@@ -1,6 +1,7 @@
 #include "acquisition/service/api.hpp"
 
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -41,10 +42,26 @@ struct ApiTest : testing::Test {
   TemporaryFolder folder;
   StatusBoard board;
   OperatorDesk desk;
-  Api api{board, desk, folder.path() / "journal.sqlite", kToken, std::chrono::milliseconds(10)};
+  AccessSettings settings;
+  Access access{Credentials::parse(kToken, "token"), settings,
+                [] { return TimePoint(std::chrono::hours(1)); }, [](const std::string&) {}};
+  std::optional<Api> api = answered_by(desk, access);
+
+  Api patient(OperatorDesk& on) { return Api({board, on, access, {}, {}}); }
+
+  Api answered_by(OperatorDesk& on, Access& door) {
+    return Api({board, on, door, folder.path() / "journal.sqlite",
+                [] { return std::string("biotomy_job_layers 5\n"); }},
+               std::chrono::milliseconds(10));
+  }
 
   ApiResponse get(const std::string& path, std::map<std::string, std::string> query = {}) const {
-    return api.answer({"GET", path, std::move(query), "", ""});
+    return api->answer({"GET", path, std::move(query), "", "", "127.0.0.1"});
+  }
+
+  ApiResponse post(const std::string& path, const std::string& authorization,
+                   const std::string& body = "") const {
+    return api->answer({"POST", path, {}, authorization, body, "10.0.0.7"});
   }
 };
 
@@ -106,52 +123,90 @@ TEST_F(ApiTest, KnowsWhatThereIsAndHowItIsAsked) {
   EXPECT_EQ(get("/api/v1/control/explode").status, 404);
   EXPECT_EQ(get("/api/v1/control/start").status, 405);
   EXPECT_EQ(get("/api/v1/control/start").headers.at("Allow"), "POST");
-  const ApiResponse posted = api.answer({"POST", "/api/v1/status", {}, "", ""});
+  const ApiResponse posted = post("/api/v1/status", "");
   EXPECT_EQ(posted.status, 405);
   EXPECT_EQ(json::parse(posted.body).at("error").at("code"), 405);
 }
 
 TEST_F(ApiTest, TakesNoCommandWithoutTheToken) {
   const std::string path = "/api/v1/control/abort";
-  EXPECT_EQ(api.answer({"POST", path, {}, "", ""}).status, 401);
-  EXPECT_EQ(api.answer({"POST", path, {}, "Bearer wrong", ""}).status, 403);
+  EXPECT_EQ(post(path, "").status, 401);
+  EXPECT_EQ(post(path, "").headers.at("WWW-Authenticate"), "Bearer");
+  EXPECT_EQ(post(path, "Bearer wrong").status, 403);
   EXPECT_TRUE(desk.take().empty());
+}
+
+TEST_F(ApiTest, SaysWhenACommandMayBeTriedAgain) {
+  settings.commands_per_minute = 1;
+  Access strict(
+      Credentials::parse(kToken, "token"), settings,
+      [] { return TimePoint(std::chrono::hours(1)); }, [](const std::string&) {});
+  api.emplace(answered_by(desk, strict));
+  const std::string authorization = std::string("Bearer ") + kToken;
+  EXPECT_EQ(post("/api/v1/control/pause", authorization).status, 503);
+  const ApiResponse second = post("/api/v1/control/pause", authorization);
+  EXPECT_EQ(second.status, 429);
+  EXPECT_EQ(second.headers.at("Retry-After"), "60");
+}
+
+TEST_F(ApiTest, ShowsNothingButItsHealthWithoutATokenWhenReadingNeedsOne) {
+  settings.reading_needs_token = true;
+  Access closed(
+      Credentials::parse(kToken, "token"), settings,
+      [] { return TimePoint(std::chrono::hours(1)); }, [](const std::string&) {});
+  api.emplace(answered_by(desk, closed));
+  for (const char* path : {"/", "/metrics", "/api/v1/status", "/api/v1/layers"}) {
+    EXPECT_EQ(get(path).status, 401) << path;
+    EXPECT_EQ(api->answer({"GET", path, {}, std::string("Bearer ") + kToken, "", "::1"}).status,
+              200)
+        << path;
+  }
+  EXPECT_EQ(get("/healthz").status, 200);
+}
+
+TEST_F(ApiTest, ShowsTheMetricsAsPrometheusReadsThem) {
+  const ApiResponse response = get("/metrics");
+  EXPECT_EQ(response.status, 200);
+  EXPECT_THAT(response.content_type, HasSubstr("text/plain; version=0.0.4"));
+  EXPECT_EQ(response.body, "biotomy_job_layers 5\n");
 }
 
 TEST_F(ApiTest, TakesNoCommandItDoesNotUnderstand) {
   const std::string authorization = std::string("Bearer ") + kToken;
   for (const char* body : {"abort", "[]", R"({"force": true})", R"({"reason": 1})"}) {
-    EXPECT_EQ(api.answer({"POST", "/api/v1/control/abort", {}, authorization, body}).status, 400);
+    EXPECT_EQ(post("/api/v1/control/abort", authorization, body).status, 400);
   }
   EXPECT_TRUE(desk.take().empty());
 }
 
 TEST_F(ApiTest, SaysWhenTheControlDoesNotAnswer) {
   const std::string authorization = std::string("Bearer ") + kToken;
-  EXPECT_EQ(api.answer({"POST", "/api/v1/control/pause", {}, authorization, ""}).status, 503);
-  EXPECT_EQ(desk.take().size(), 1U);
+  EXPECT_EQ(post("/api/v1/control/pause", authorization).status, 503);
+  const std::vector<OperatorDesk::Request> requests = desk.take();
+  ASSERT_EQ(requests.size(), 1U);
+  EXPECT_EQ(requests[0].who, "operator from 10.0.0.7");
 }
 
 TEST_F(ApiTest, HandsOnWhatTheJobAnswers) {
   const std::string authorization = std::string("Bearer ") + kToken;
-  const ApiRequest start{
-      "POST", "/api/v1/control/start", {}, authorization, R"({"reason": "good evening"})"};
+  const ApiRequest start{"POST",        "/api/v1/control/start",         {},
+                         authorization, R"({"reason": "good evening"})", "::1"};
   {
     AnsweredDesk willing({true, "the checks have begun"});
-    const Api answered(board, willing.desk, {}, kToken);
+    const Api answered = patient(willing.desk);
     const ApiResponse response = answered.answer(start);
     EXPECT_EQ(response.status, 200);
     EXPECT_EQ(json::parse(response.body).at("message"), "the checks have begun");
   }
   AnsweredDesk unwilling({false, "the job is grinding"});
-  const Api answered(board, unwilling.desk, {}, kToken);
+  const Api answered = patient(unwilling.desk);
   const ApiResponse response = answered.answer(start);
   EXPECT_EQ(response.status, 409);
   EXPECT_EQ(json::parse(response.body).at("error").at("message"), "the job is grinding");
 }
 
 TEST_F(ApiTest, IsServedOverHttp) {
-  const HttpServer server(api, "127.0.0.1", 0);
+  const HttpServer server(*api, "127.0.0.1", 0);
   httplib::Client client("127.0.0.1", server.port());
   const auto health = client.Get("/healthz");
   ASSERT_TRUE(health);
@@ -166,8 +221,8 @@ TEST_F(ApiTest, IsServedOverHttp) {
 }
 
 TEST_F(ApiTest, RefusesAPortThatIsTaken) {
-  const HttpServer first(api, "127.0.0.1", 0);
-  EXPECT_THAT([&] { const HttpServer second(api, "127.0.0.1", first.port()); },
+  const HttpServer first(*api, "127.0.0.1", 0);
+  EXPECT_THAT([&] { const HttpServer second(*api, "127.0.0.1", first.port()); },
               testing::ThrowsMessage<ListenError>(HasSubstr("another program has the port")));
 }
 

@@ -91,6 +91,36 @@ TEST(Configuration, RefusesAPartOfAVoxel) {
               refuses("store.chunk"));
 }
 
+TEST(Configuration, ListensToOtherComputersOnlyWhenThatIsMeant) {
+  const auto service = [](const std::string& keys) {
+    return changed("[focus]", "[service]\n" + keys + "\n[focus]");
+  };
+  for (const char* address : {"0.0.0.0:8080", "192.168.7.2:80", "[::]:8080", "rig.local:8080"}) {
+    const std::string listen = std::string("listen = \"") + address + "\"";
+    EXPECT_THAT(service(listen), refuses("service.allow_remote = true")) << address;
+    EXPECT_NO_THROW(service(listen + "\nallow_remote = true")()) << address;
+    EXPECT_TRUE(service(listen + "\nread = \"token\"")().service.access.reading_needs_token);
+  }
+  for (const char* address : {"127.0.0.1:80", "127.1.2.3:80", "localhost:80", "[::1]:80"}) {
+    EXPECT_NO_THROW(service(std::string("listen = \"") + address + "\"")()) << address;
+  }
+}
+
+TEST(Configuration, TellsNobodyUnlessItIsToldWhom) {
+  EXPECT_FALSE(parse_configuration(smallest_configuration(), "rig.toml").notify.is_on());
+  EXPECT_TRUE(changed("[focus]", "[notify]\ncommand = [\"mail\"]\n[focus]")().notify.is_on());
+}
+
+TEST(Configuration, RefusesAWebhookThatIsNoUrl) {
+  for (const char* url : {"ftp://example.org", "example.org", "https://", "http://a b"}) {
+    EXPECT_THAT(changed("[focus]", std::string("[notify]\nwebhook = \"") + url + "\"\n[focus]"),
+                refuses("notify.webhook: must be a URL"))
+        << url;
+  }
+  EXPECT_THAT(changed("[focus]", "[notify]\ncommand = [\"\"]\n[focus]"),
+              refuses("notify.command: the first text must name the program"));
+}
+
 TEST(Configuration, ReadsTheExampleThatIsInstalled) {
   const Configuration read = read_configuration(BIOTOMY_EXAMPLE_CONFIGURATION);
   EXPECT_EQ(read.lines.backend, LinesConfiguration::Backend::gpiod);

@@ -1,0 +1,277 @@
+#include "acquisition/service/daemon.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <pthread.h>
+
+#include "acquisition/job/control_loop.hpp"
+#include "acquisition/job/job.hpp"
+#include "acquisition/log.hpp"
+#include "acquisition/records/sample_lock.hpp"
+#include "acquisition/records/utc_time.hpp"
+#include "acquisition/service/access.hpp"
+#include "acquisition/service/api.hpp"
+#include "acquisition/service/counted_stage.hpp"
+#include "acquisition/service/devices.hpp"
+#include "acquisition/service/http_server.hpp"
+#include "acquisition/service/liveness.hpp"
+#include "acquisition/service/metrics/metrics_page.hpp"
+#include "acquisition/service/metrics/run_metrics.hpp"
+#include "acquisition/service/notifications/command_channel.hpp"
+#include "acquisition/service/notifications/notifier.hpp"
+#include "acquisition/service/notifications/run_watch.hpp"
+#include "acquisition/service/notifications/webhook_channel.hpp"
+#include "acquisition/service/service_manager.hpp"
+#include "acquisition/service/stop_signals.hpp"
+#include "acquisition/service/watched_worker.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr int kFailure = 1;
+constexpr const char* kComponent = "daemon";
+constexpr const char* kJournalName = "journal.sqlite";
+constexpr milliseconds kLook{200};     // between two looks of the main thread at the others
+constexpr milliseconds kStopLook{50};  // the same while the rig is brought to rest
+constexpr milliseconds kStopExtension{10000};
+constexpr milliseconds kWorkerSlack{60000};
+constexpr milliseconds kHung{5000};  // without a tick
+constexpr int kCallsInATick = 8;     // to one device, each answered late, at most
+
+/// Longer than any task of the worker may take before the job itself faults.
+milliseconds worker_limit(const JobSettings& job) {
+  const SafetyLimits& limits = job.limits;
+  return std::max({limits.preflight_limit, limits.store_limit, limits.assess_limit,
+                   2 * job.camera.capture_time_out + limits.capture_limit}) +
+         kWorkerSlack;
+}
+
+/// A tick that waits for devices which do not answer must not look like a hang.
+void warn_of_short_watchdog(const ServiceManager& systemd, const Configuration& configuration) {
+  const milliseconds longest_tick = kCallsInATick * configuration.stage.response_timeout +
+                                    kCallsInATick * configuration.lines.response_timeout;
+  const auto period = systemd.watchdog_period();
+  if (!period || *period > longest_tick) return;
+  log_warning(kComponent,
+              "systemd's WatchdogSec is not longer than devices that do not answer may "
+              "hold up a tick, " +
+                  std::to_string(longest_tick.count()) +
+                  " ms: make it longer, or response_timeout_ms shorter");
+}
+
+std::vector<std::unique_ptr<Channel>> make_channels(const NotifyConfiguration& notify) {
+  std::vector<std::unique_ptr<Channel>> channels;
+  if (!notify.command.empty()) {
+    channels.push_back(std::make_unique<CommandChannel>(notify.command));
+  }
+  if (!notify.webhook.empty()) {
+    std::string token;
+    if (!notify.webhook_token_file.empty()) {
+      token = read_secret_file(notify.webhook_token_file, "the webhook's token file");
+      token.erase(token.find_last_not_of(" \t\r\n") + 1);
+    }
+    channels.push_back(std::make_unique<WebhookChannel>(*split_url(notify.webhook), token));
+  }
+  return channels;
+}
+
+/// Looks at each tick's status for whoever wants to know of it, in the control thread.
+class Observers {
+ public:
+  explicit Observers(const Configuration& configuration)
+      : metrics_(configuration.service.tick), work_("the job " + configuration.job.plan.name) {
+    const NotifyConfiguration& notify = configuration.notify;
+    if (!notify.is_on()) return;
+    notifier_ = std::make_unique<Notifier>(notify.notifier, make_channels(notify));
+    watch_.emplace(notify.watch, notifier_->interrupted(), std::chrono::system_clock::now);
+  }
+
+  void observe(const JobStatus& status, bool at_rest, TimePoint began) {
+    metrics_.observe(status, began, steady_clock::now());
+    if (!notifier_) return;
+    if (at_rest_ != at_rest) {
+      at_rest_ = at_rest;
+      notifier_->work(at_rest ? ""
+                              : work_ + ", since " + utc_text(std::chrono::system_clock::now()));
+    }
+    for (Notice& notice : watch_->observe(status, began)) notifier_->tell(std::move(notice));
+  }
+
+  const RunMetrics& metrics() const { return metrics_; }
+
+  std::vector<Courier::Figures> couriers() const {
+    return notifier_ ? notifier_->figures() : std::vector<Courier::Figures>{};
+  }
+
+ private:
+  RunMetrics metrics_;
+  std::string work_;
+  std::unique_ptr<Notifier> notifier_;
+  std::optional<RunWatch> watch_;
+  std::optional<bool> at_rest_;
+};
+
+/// What the control thread tells the main thread.
+struct ControlState {
+  std::atomic<bool> failed{false};
+  std::atomic<bool> at_rest{true};
+};
+
+/// Until a signal, or until the control loop has failed.
+void watch_over(const StopSignals& signals, const ControlState& control, Liveness& liveness,
+                ServiceManager& systemd, const StatusBoard& board) {
+  bool ready = false;
+  bool complained = false;
+  while (!control.failed && !signals.wait(ready ? kLook : kStopLook)) {
+    if (!ready && liveness.ticks() > 0) {
+      systemd.ready();
+      ready = true;
+    }
+    if (ready) systemd.status(status_line(*board.look()));
+    if (liveness.take_progress(steady_clock::now())) systemd.alive();
+    if (const auto complaint = liveness.complaint(steady_clock::now()); !complaint) {
+      complained = false;
+    } else if (!std::exchange(complained, true)) {
+      log_error(kComponent, *complaint);
+    }
+  }
+}
+
+/// Asks the job to come to rest and waits for it. False when it did not within the limit.
+bool bring_to_rest(const StopSignals& signals, const ControlState& control, Liveness& liveness,
+                   ServiceManager& systemd, const StatusBoard& board, OperatorDesk& desk,
+                   milliseconds stop_limit) {
+  auto reply = desk.post(OperatorCommand::shut_down, "");
+  const auto limit = steady_clock::now() + stop_limit;
+  while (!control.failed && steady_clock::now() < limit) {
+    const bool heard = reply.wait_for(milliseconds(0)) == std::future_status::ready;
+    if (heard && control.at_rest) return true;
+    // As long as it parks it may park, up to its own limit; a hung daemon asks for no time.
+    if (liveness.take_progress(steady_clock::now())) {
+      systemd.alive();
+      systemd.extend_stop(kStopExtension);
+    }
+    systemd.status("stopping: " + status_line(*board.look()));
+    signals.wait(kStopLook);
+  }
+  return false;
+}
+
+/// A thread that hangs cannot be waited for. The rig is left to the controller's watchdog, which
+/// misses the heartbeat by then.
+[[noreturn]] void end_at_once(const char* why) {
+  log_error(kComponent, std::string(why) + ": ends without it");
+  std::_Exit(kFailure);
+}
+
+void end_if_control_hangs(const Liveness& liveness) {
+  const std::uint64_t before = liveness.ticks();
+  const auto limit = steady_clock::now() + kHung;
+  while (liveness.ticks() == before) {
+    if (steady_clock::now() > limit) end_at_once("the control loop hangs");
+    std::this_thread::sleep_for(kStopLook);
+  }
+}
+
+}  // namespace
+
+int run_daemon(const Configuration& configuration) {
+  const StopSignals signals;
+  ServiceManager systemd;
+  warn_of_short_watchdog(systemd, configuration);
+  const JobPlan& plan = configuration.job.plan;
+  const SampleLock lock(plan.sample);
+  const std::filesystem::path journal = plan.sample / kJournalName;
+  const auto devices_stage = make_stage(configuration.stage);
+  const auto lines = make_lines(configuration.lines);
+  const auto camera = make_camera(configuration.camera);
+  LinkCounts link;
+  CountedStage stage(*devices_stage, link);
+
+  ThreadWorker worker_thread;
+  WatchedWorker worker(worker_thread, steady_clock::now);
+  ThreadWorker volume_worker;
+  OperatorDesk desk;
+  StatusBoard board;
+  Observers observers(configuration);
+  Access access(Credentials::read_or_make(configuration.service.token_file),
+                configuration.service.access, steady_clock::now, [&](const std::string& line) {
+                  log_warning("access", line);
+                  desk.remark(line);
+                });
+  Job job(configuration.job, {stage, *lines, *camera, worker, volume_worker, desk, board},
+          real_surroundings(), read_earlier_run(journal));
+  const Api api({board, desk, access, journal, [&] {
+                   return metrics_page(*board.look(), observers.metrics(), link,
+                                       observers.couriers());
+                 }});
+  const HttpServer server(api, configuration.service.host, configuration.service.port);
+
+  Liveness liveness([&] { return worker.busy_since(); }, worker_limit(configuration.job));
+  ControlState control;
+  bool came_to_rest = false;
+  {
+    const ControlLoop loop(
+        configuration.service.tick,
+        [&](TimePoint now) {
+          if (liveness.ticks() == 0) ::pthread_setname_np(::pthread_self(), "control");
+          job.tick(now);
+          control.at_rest = job.at_rest();
+          observers.observe(*board.look(), control.at_rest, now);
+          liveness.ticked();
+        },
+        [&](const char* what) {
+          log_error(kComponent, std::string("the control loop failed: ") + what);
+          control.failed = true;
+        });
+    log_info(kComponent, "listening on http://" + configuration.service.host + ":" +
+                             std::to_string(server.port()));
+    watch_over(signals, control, liveness, systemd, board);
+    log_info(kComponent, "is ending: brings the rig to rest");
+    systemd.stopping();
+    came_to_rest = bring_to_rest(signals, control, liveness, systemd, board, desk,
+                                 configuration.service.stop_limit);
+    if (!came_to_rest && !control.failed) end_if_control_hangs(liveness);
+  }
+  if (!came_to_rest) job.halt(steady_clock::now());
+  if (liveness.complaint(steady_clock::now())) end_at_once("the thread for camera and disk hangs");
+  return control.failed ? kFailure : 0;
+}
+
+int test_notification(const Configuration& configuration) {
+  const StopSignals signals;
+  const NotifyConfiguration& notify = configuration.notify;
+  if (!notify.is_on()) {
+    std::cerr << "biotomyd: there is nobody to tell: set notify.command or notify.webhook\n";
+    return kFailure;
+  }
+  Notice notice;
+  notice.text = "a test: notifications of this rig reach you";
+  notice.at = utc_text(std::chrono::system_clock::now());
+  notice.job = configuration.job.plan.name;
+  notice.layers = configuration.job.plan.layers;
+  bool failed = false;
+  for (const std::unique_ptr<Channel>& channel : make_channels(notify)) {
+    try {
+      channel->deliver(notice_json(notice, "test"), notify.notifier.courier.time_out, {});
+      std::cout << channel->name() << ": delivered\n";
+    } catch (const DeliveryError& error) {
+      std::cerr << "biotomyd: " << channel->name() << ": " << error.what() << '\n';
+      failed = true;
+    }
+  }
+  return failed ? kFailure : 0;
+}
+
+}  // namespace biotomy::acquisition

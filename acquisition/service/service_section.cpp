@@ -1,0 +1,76 @@
+#include "acquisition/service/service_section.hpp"
+
+#include <arpa/inet.h>
+
+#include "acquisition/service/configuration_keys.hpp"
+#include "firmware_bridge/wire/endpoint.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+using bridge::CheckedTable;
+using bridge::FlagKey;
+using bridge::TextKey;
+
+/// Whether only this computer reaches the address. A name other than localhost may be any address.
+bool is_loopback(const std::string& host) {
+  if (host == "localhost" || host == "::1") return true;
+  in_addr address{};
+  return ::inet_pton(AF_INET, host.c_str(), &address) == 1 && (ntohl(address.s_addr) >> 24U) == 127;
+}
+
+void read_listen(const CheckedTable& table, ServiceConfiguration& service) {
+  const std::string listen =
+      table.get(TextKey{.name = "listen",
+                        .fallback = "127.0.0.1:8080",
+                        .description = "address and port of the web page and the API"});
+  try {
+    const bridge::Endpoint endpoint = bridge::parse_endpoint("tcp://" + listen);
+    service.host = endpoint.host;
+    service.port = endpoint.port;
+  } catch (const bridge::ConfigurationError&) {
+    table.reject("listen", "\"" + listen + "\" is not possible; expected \"address:port\"");
+  }
+}
+
+}  // namespace
+
+ServiceConfiguration read_service(const CheckedTable& table) {
+  ServiceConfiguration service;
+  read_listen(table, service);
+  service.token_file = table.resolve(
+      table.get(TextKey{.name = "token_file",
+                        .fallback = "biotomy.token",
+                        .description = "holds the token that commands must carry, or a line "
+                                       "\"name token\" for each person; made when missing"}));
+  service.access.reading_needs_token =
+      table.get(TextKey{.name = "read",
+                        .fallback = "open",
+                        .choices = {"open", "token"},
+                        .description = "who may look at page, status, layers and metrics: "
+                                       "everybody who reaches the address, or who has a token"}) ==
+      "token";
+  const bool allow_remote =
+      table.get(FlagKey{.name = "allow_remote",
+                        .fallback = false,
+                        .description = "listen on an address that other computers reach although "
+                                       "reading needs no token"});
+  if (!is_loopback(service.host) && !service.access.reading_needs_token && !allow_remote) {
+    table.reject("listen", "other computers reach " + service.host +
+                               ", and everybody could read there: set service.read = \"token\", or "
+                               "service.allow_remote = true if that is meant");
+  }
+  service.access.failed_tokens_per_minute =
+      count(table, "failed_tokens_per_minute", service.access.failed_tokens_per_minute, 1, 1000,
+            "of one address; after more wrong tokens it has to wait");
+  service.access.commands_per_minute =
+      count(table, "commands_per_minute", service.access.commands_per_minute, 1, 10000,
+            "of one address; after more commands it has to wait");
+  service.tick =
+      duration(table, "tick_ms", service.tick, "the rig is looked after so often", 1, 200);
+  service.stop_limit = duration(table, "stop_limit_ms", service.stop_limit,
+                                "when the daemon is told to end: time to come to rest");
+  return service;
+}
+
+}  // namespace biotomy::acquisition

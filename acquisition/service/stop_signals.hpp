@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+#include <csignal>
+
+namespace biotomy::acquisition {
+
+/// SIGTERM and SIGINT, taken by the main thread alone when it asks; SIGPIPE is ignored. Made before
+/// any other thread.
+class StopSignals {
+ public:
+  StopSignals();
+
+  /// True when one came within the time.
+  bool wait(std::chrono::milliseconds time) const;
+
+ private:
+  sigset_t set_{};
+};
+
+}  // namespace biotomy::acquisition
