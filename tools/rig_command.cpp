@@ -39,7 +39,9 @@ struct RigOptions {
 /// The daemon of a rig, over HTTP. What goes wrong is one line that says what to do.
 class Daemon {
  public:
-  explicit Daemon(const std::string& url) : url_(url), client_(checked(url)) {
+  /// `token` may be empty: then only a daemon that lets everybody read answers.
+  Daemon(const std::string& url, const std::string& token) : url_(url), client_(checked(url)) {
+    if (!token.empty()) client_.set_bearer_token_auth(token.c_str());
     client_.set_connection_timeout(kConnectSeconds);
     client_.set_read_timeout(kAnswerSeconds);
     client_.set_write_timeout(kAnswerSeconds);
@@ -55,12 +57,10 @@ class Daemon {
     return document;
   }
 
-  std::string command(const std::string& name, const std::string& token,
-                      const std::string& reason) {
-    const httplib::Headers headers = {{"Authorization", "Bearer " + token}};
+  std::string command(const std::string& name, const std::string& reason) {
     const std::string body = reason.empty() ? "{}" : json{{"reason", reason}}.dump();
     const std::string text =
-        answer(client_.Post("/api/v1/control/" + name, headers, body, "application/json"));
+        answer(client_.Post("/api/v1/control/" + name, body, "application/json"));
     const json document = json::parse(text, nullptr, false);
     return document.is_object() ? document.value("message", "") : "";
   }
@@ -79,15 +79,19 @@ class Daemon {
                                ": is it running, and is --url right?");
     }
     if (result->status == 200) return result->body;
-    if (result->status == 401 || result->status == 403) {
-      throw std::runtime_error("the daemon at " + url_ +
-                               " refused the token: give the file that its service.token_file "
-                               "names, with --token-file or BIOTOMY_TOKEN");
-    }
     const json document = json::parse(result->body, nullptr, false);
     std::string message = "HTTP status " + std::to_string(result->status);
     if (document.is_object() && document.contains("error") && document["error"].is_object()) {
       message = document["error"].value("message", message);
+    }
+    if (result->status == 401) {
+      message =
+          "the daemon at " + url_ + " wants a token: give --token-file, or set " + kTokenVariable;
+    } else if (result->status == 403) {
+      message = "the daemon at " + url_ +
+                " does not know the token: give one that stands in its service.token_file";
+    } else if (result->status == 429) {
+      message = "the daemon at " + url_ + " turns this computer away for a while: " + message;
     }
     throw std::runtime_error(message);
   }
@@ -96,21 +100,26 @@ class Daemon {
   httplib::Client client_;
 };
 
+/// The last word of the file's first line: it may be "name token". Empty when no token was given.
 std::string token_of(const RigOptions& options) {
-  std::string token;
-  if (!options.token_file.empty()) {
-    std::ifstream file(options.token_file);
-    if (!file || !(file >> token)) {
-      throw std::runtime_error("--token-file: no token can be read from " + options.token_file);
-    }
-    return token;
+  if (options.token_file.empty()) {
+    const char* variable = std::getenv(kTokenVariable);
+    return variable == nullptr ? "" : variable;
   }
-  if (const char* variable = std::getenv(kTokenVariable)) token = variable;
+  std::ifstream file(options.token_file);
+  std::string token;
+  for (std::string line; token.empty() && std::getline(file, line);) {
+    std::istringstream words(line);
+    for (std::string word; words >> word && word.front() != '#';) token = word;
+  }
   if (token.empty()) {
-    throw InvalidRequest(
-        "a command needs the rig's token: give --token-file, or set BIOTOMY_TOKEN");
+    throw std::runtime_error("--token-file: no token can be read from " + options.token_file);
   }
   return token;
+}
+
+Daemon daemon_of(const RigOptions& options) {
+  return Daemon(options.url, token_of(options));
 }
 
 std::string duration_text(double seconds) {
@@ -151,6 +160,8 @@ void print_status(const json& status) {
   const std::string waiting = status.at("waiting_for");
   if (!waiting.empty()) state += ", " + waiting;
   print_row("state", state);
+  const std::string pause_cause = status.value("pause_cause", "");
+  if (!pause_cause.empty()) print_row("paused by", pause_cause);
   if (status.at("alarm").is_object()) {
     print_row("alarm", status.at("alarm").at("cause").get<std::string>() + " (since " +
                            status.at("alarm").at("since").get<std::string>() + ")");
@@ -242,18 +253,22 @@ void show_status(Daemon& daemon, const RigOptions& options) {
 
 void add_connection_options(CLI::App& command, const std::shared_ptr<RigOptions>& options) {
   command.add_option("--url", options->url, "where biotomyd listens")->capture_default_str();
+  command.add_option("--token-file", options->token_file,
+                     std::string("a file with the token; else ") + kTokenVariable + " holds it");
 }
 
 void add_control(CLI::App& rig, const std::string& name, const std::string& description,
                  const std::shared_ptr<RigOptions>& options) {
   CLI::App* command = rig.add_subcommand(name, description);
   add_connection_options(*command, options);
-  command->add_option("--token-file", options->token_file,
-                      "the daemon's token file; else BIOTOMY_TOKEN holds the token");
   command->add_option("--reason", options->reason, "a few words for the journal");
   command->callback([options, name] {
-    Daemon daemon(options->url);
-    std::cout << daemon.command(name, token_of(*options), options->reason) << '\n';
+    if (token_of(*options).empty()) {
+      throw InvalidRequest(
+          std::string("a command needs the rig's token: give --token-file, or set ") +
+          kTokenVariable);
+    }
+    std::cout << daemon_of(*options).command(name, options->reason) << '\n';
   });
 }
 
@@ -268,7 +283,7 @@ void add_rig_command(CLI::App& app) {
   add_connection_options(*status, options);
   status->add_flag("--json", options->as_json, "as the daemon gives it");
   status->callback([options] {
-    Daemon daemon(options->url);
+    Daemon daemon = daemon_of(*options);
     show_status(daemon, *options);
   });
 
@@ -279,14 +294,15 @@ void add_rig_command(CLI::App& app) {
   add_control(*rig, "acknowledge", "opens the latch after an alarm whose cause is gone", options);
 
   CLI::App* watch_command =
-      rig->add_subcommand("watch", "follows the job to its end: exit 0 when it is done");
+      rig->add_subcommand("watch",
+                          "follows the job to its end: exit 0 when it is done, 1 with the "
+                          "alarm when the rig is stopped");
   add_connection_options(*watch_command, options);
-  watch_command->add_option("--token-file", options->token_file, "not needed for watching");
   watch_command->add_option("--interval", options->interval_ms, "milliseconds between two looks")
       ->check(CLI::Range(50, 60000))
       ->capture_default_str();
   watch_command->callback([options] {
-    Daemon daemon(options->url);
+    Daemon daemon = daemon_of(*options);
     watch(daemon, *options);
   });
 }
