@@ -233,7 +233,9 @@ void Job::go(JobEvent event, TimePoint now) {
 
 void Job::enter(JobState state, TimePoint now) {
   const JobState from = std::exchange(state_, state);
-  if (state != JobState::pausing && state != JobState::paused) pause_cause_.clear();
+  const bool rests = state == JobState::pausing || state == JobState::paused ||
+                     state == JobState::withdrawing || state == JobState::held;
+  if (!rests) pause_cause_.clear();
   step_begin_ = now;
   step_command_begun_ = false;
   if (is_layer_step(state)) {
@@ -320,6 +322,7 @@ void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
   note("alarm", "held: " + cause);
   held_for_ = what;
+  pause_cause_ = cause;
   try {
     go(JobEvent::hold, now);
   } catch (const std::exception& error) {

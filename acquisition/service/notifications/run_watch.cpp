@@ -11,9 +11,25 @@ namespace {
 constexpr std::size_t kPaceLayers = 9;
 
 /// States in which layers are expected to come one after the other.
+/// Where layers are made, or soon will be.
 bool is_running(JobState state) {
-  return !is_at_rest(state) && state != JobState::resetting && state != JobState::pausing &&
-         state != JobState::finishing && state != JobState::aborting;
+  switch (state) {
+    case JobState::resetting:
+    case JobState::conditioning:
+    case JobState::pausing:
+    case JobState::withdrawing:
+    case JobState::held:
+    case JobState::finishing:
+    case JobState::aborting:
+      return false;
+    default:
+      return !is_at_rest(state);
+  }
+}
+
+/// The rig comes to rest, for a pause or until it is fit to go on by itself.
+bool is_coming_to_rest(JobState state) {
+  return state == JobState::pausing || state == JobState::withdrawing;
 }
 
 bool is_latched(JobState state) {
@@ -92,15 +108,16 @@ void RunWatch::watch_fault(const JobStatus& status) {
 }
 
 void RunWatch::watch_pause(const JobStatus& status) {
-  const bool pausing = status.state == JobState::pausing;
-  const bool begins = pausing && state_ != JobState::pausing;
+  const bool pausing = is_coming_to_rest(status.state);
+  const bool begins = pausing && !is_coming_to_rest(state_);
   const bool asked = status.pause_requested || pause_requested_;
   if (begins && !asked && !first_) {
     pause_open_ = true;
     const std::string cause = status.pause_cause.empty() ? "" : ": " + status.pause_cause;
     tell(NoticeKind::pause, false, "the job paused by itself" + cause);
   }
-  if (pause_open_ && !pausing && status.state != JobState::paused) {
+  const bool rests = status.state == JobState::paused || status.state == JobState::held;
+  if (pause_open_ && !pausing && !rests) {
     pause_open_ = false;
     // A fault, or an abort, tells its own story.
     if (is_running(status.state)) tell(NoticeKind::pause, true, "the job goes on after the pause");
