@@ -183,19 +183,32 @@ void Controller::guard(double rig_seconds) {
   if (fault != Fault::none) {
     fall_into(fault);
   }
-  if (state_ == ControllerState::faulted && beyond_limits()) {
-    const MechanicsSettings& machine = mechanics_.settings();
-    const auto bring_back = [](Axis& axis, double minimum, double maximum, double speed) {
-      if (axis.arrived() && !within(axis.position_um(), minimum, maximum)) {
-        axis.go_to(std::clamp(axis.position_um(), minimum, maximum), speed);
-      }
-    };
-    bring_back(mechanics_.feed, settings_.feed_minimum_um, settings_.feed_maximum_um,
-               machine.feed.speed_um_s);
-    bring_back(mechanics_.column, settings_.column_minimum_um, settings_.column_maximum_um,
-               machine.column.speed_um_s);
-    bring_back(mechanics_.traverse, 0, mechanics_.face_end_um(), machine.traverse.speed_um_s);
+  if (state_ == ControllerState::faulted) {
+    let_go();
   }
+}
+
+/// Drives are off while faulted, but for lifting the wheel: an axis at rest is where it is. Once
+/// nobody can be hurt, one beyond its limits is brought back to them.
+void Controller::let_go() {
+  const bool may_move = !inputs_.estop_pressed && !inputs_.door_open;
+  const auto treat = [&](Axis& axis, double minimum, double maximum, double speed_um_s) {
+    if (!axis.arrived()) {
+      return;
+    }
+    if (may_move && !within(axis.position_um(), minimum, maximum)) {
+      axis.go_to(std::clamp(axis.position_um(), minimum, maximum), speed_um_s);
+    } else {
+      axis.halt();
+    }
+  };
+  const MechanicsSettings& machine = mechanics_.settings();
+  treat(mechanics_.feed, settings_.feed_minimum_um, settings_.feed_maximum_um,
+        machine.feed.speed_um_s);
+  treat(mechanics_.column, settings_.column_minimum_um, settings_.column_maximum_um,
+        machine.column.speed_um_s);
+  treat(mechanics_.traverse, -settings_.traverse_margin_um,
+        mechanics_.face_end_um() + settings_.traverse_margin_um, machine.traverse.speed_um_s);
 }
 
 void Controller::carry_on(double rig_seconds) {

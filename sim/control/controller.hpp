@@ -73,7 +73,7 @@ struct ControllerEvents {
 /// - so do an axis beyond its limits, an axis or a spindle that doesn't do what it is told for
 /// longer
 ///   than DriveLimits allows, and an overloaded spindle; an axis beyond a limit is brought back to
-///   it, so that the cause can go;
+///   it once e-stop and door allow, so that the cause can go;
 /// - the master is watched from its first heartbeat on;
 /// - without power nothing is known and nothing moves but what runs down; power that comes back
 ///   finds the permanent memory alone.
@@ -128,6 +128,7 @@ class Controller {
   void guard(double rig_seconds);
   Fault machine_fault() const;
   bool beyond_limits() const;
+  void let_go();
   void set_homed(bool homed);
   void fall_into(Fault fault);
   bool reset_fault();

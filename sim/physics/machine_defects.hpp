@@ -6,9 +6,9 @@ namespace biotomy::sim {
 
 /// What may be broken in the machine: knobs, none of which is turned by default.
 struct MachineDefects {
-  AxisDefects feed;
-  AxisDefects traverse;
-  AxisDefects column;
+  AxisDefects feed{};
+  AxisDefects traverse{};
+  AxisDefects column{};
   double wheel_short_um = 0;        ///< the wheel reaches so much less deep than the feed says
   double extra_load_percent = 0;    ///< on the spindle while it turns
   bool spindle_blocked = false;     ///< no torque: it runs down, or doesn't start

@@ -20,7 +20,7 @@ struct MechanicsSettings {
   double vibration_decay_s = 0;  ///< time constant, once what shook the machine is over
   double wheel_wear_um_mm3 = 0;  ///< radius lost for each cubic millimetre ground away
   double load_per_wear_um = 0;   ///< share of the cutting load that a micrometre of wear adds
-  ClimateSettings climate;
+  ClimateSettings climate{};
 };
 
 /// The machine without its controller: three axes, a spindle, an air nozzle, the block. It does

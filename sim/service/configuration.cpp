@@ -89,18 +89,33 @@ void read_stage(const CheckedTable& stage, Configuration& c) {
                            .maximum = 60000,
                            .description = "the master's heartbeat unchanged for so long: faulted; "
                                           "0: no watchdog"}));
-  const auto limit = [&](const char* name, double fallback, const char* description) {
+  const auto number = [&](const char* name, double fallback, const char* unit, double least,
+                          double most, const char* description) {
     return stage.get(NumberKey{.name = name,
                                .fallback = fallback,
-                               .unit = "um",
-                               .minimum = -kFarUm,
-                               .maximum = kFarUm,
+                               .unit = unit,
+                               .minimum = least,
+                               .maximum = most,
                                .description = description});
+  };
+  const auto limit = [&](const char* name, double fallback, const char* description) {
+    return number(name, fallback, "um", -kFarUm, kFarUm, description);
   };
   controller.feed_minimum_um = limit("feed_minimum", 0, "of the feed axis");
   controller.feed_maximum_um = limit("feed_maximum", 60000, "of the feed axis");
   controller.column_minimum_um = limit("column_minimum", 0, "of the column");
   controller.column_maximum_um = limit("column_maximum", 60000, "of the column");
+  DriveLimits& drives = controller.drives;
+  controller.boot_seconds =
+      number("boot_time", controller.boot_seconds, "s", 0, 600, "from power to idle, in rig time");
+  drives.still_s = number("stall_time", drives.still_s, "s", 0.1, 60,
+                          "a drive that does not do as it is told for so long: fault 5");
+  drives.following_error_um =
+      number("following_error", drives.following_error_um, "um", 0.1, kFarUm,
+             "so far from its target a resting axis is a drive's fault");
+  drives.overload_percent = number("overload", drives.overload_percent, "%", 1, 1000,
+                                   "of the spindle's rated torque: more is fault 6");
+  drives.overload_s = number("overload_time", drives.overload_s, "s", 0, 60, "if it lasts");
   if (controller.feed_minimum_um >= controller.feed_maximum_um) {
     stage.reject("feed_maximum", "must be more than feed_minimum");
   }
@@ -110,40 +125,86 @@ void read_stage(const CheckedTable& stage, Configuration& c) {
 }
 
 void read_motion(const CheckedTable& motion, Configuration& c) {
-  const auto speed = [&](const char* name, double fallback, const char* description) {
+  const auto number = [&](const std::string& name, double fallback, const char* unit, double least,
+                          double most, const char* description) {
     return motion.get(NumberKey{.name = name,
                                 .fallback = fallback,
-                                .unit = "um/s",
-                                .minimum = 1,
-                                .maximum = kFarUm,
+                                .unit = unit,
+                                .minimum = least,
+                                .maximum = most,
                                 .description = description});
+  };
+  const auto speed = [&](const char* name, double fallback, const char* description) {
+    return number(name, fallback, "um/s", 1, kFarUm, description);
   };
   MechanicsSettings& machine = c.rig.mechanics;
   machine.feed.speed_um_s = speed("feed_speed", 2000, "of the wheel, up and down");
   machine.traverse.speed_um_s = speed("traverse_speed", 60000, "of the block, to and fro");
   machine.grinding_speed_um_s = speed("grinding_speed", 6000, "of the block under the wheel");
   machine.column.speed_um_s = speed("column_speed", 4000, "of the camera's column");
+  const double settling_s =
+      1e-3 * number("settling", 80, "ms", 0, 400, "from reaching a target to standing still on it");
+  const auto read_axis = [&](const std::string& name, AxisSettings& axis, double backlash_um,
+                             double overshoot_um) {
+    axis.settling_s = settling_s;
+    axis.backlash_um = number(name + "_backlash", backlash_um, "um", 0, 10000,
+                              "play between the motor and what it moves");
+    axis.overshoot_um =
+        number(name + "_overshoot", overshoot_um, "um", 0, 10000, "beyond a target, on arrival");
+  };
+  read_axis("feed", machine.feed, 2, 0.2);
+  read_axis("traverse", machine.traverse, 2, 1);
+  read_axis("column", machine.column, 3, 1);
   machine.spindle_acceleration_rpm_s =
-      motion.get(NumberKey{.name = "spindle_acceleration",
-                           .fallback = 3000,
-                           .unit = "rpm/s",
-                           .minimum = 1,
-                           .maximum = 1e6,
-                           .description = "of the wheel's spindle"});
+      number("spindle_acceleration", 3000, "rpm/s", 1, 1e6, "of the wheel's spindle");
   c.rig.controller.spindle_maximum_rpm =
-      motion.get(NumberKey{.name = "spindle_maximum",
-                           .fallback = 6000,
-                           .unit = "rpm",
-                           .minimum = 1,
-                           .maximum = 65535,
-                           .description = "a faster grind pass is refused"});
+      number("spindle_maximum", 6000, "rpm", 1, 65535, "a faster grind pass is refused");
   c.rig.controller.lift_um =
-      motion.get(NumberKey{.name = "lift",
-                           .fallback = 2000,
-                           .unit = "um",
-                           .minimum = 1,
-                           .maximum = kFarUm,
-                           .description = "how far the wheel goes up to let the block pass"});
+      number("lift", 2000, "um", 1, kFarUm, "how far the wheel goes up to let the block pass");
+  machine.vibration_decay_s = 1e-3 * number("vibration_decay", 300, "ms", 0, 60000,
+                                            "time constant, once what shook the rig is over");
+}
+
+void read_wheel(const CheckedTable& wheel, Configuration& c) {
+  c.rig.mechanics.wheel_wear_um_mm3 = wheel.get(NumberKey{
+      .name = "wear",
+      .fallback = 0.002,
+      .unit = "um/mm3",
+      .minimum = 0,
+      .maximum = 1000,
+      .description = "radius lost for what is ground away: the face stays higher by so much"});
+  c.rig.mechanics.load_per_wear_um = wheel.get(
+      NumberKey{.name = "load_per_wear",
+                .fallback = 0.05,
+                .unit = "1/um",
+                .minimum = 0,
+                .maximum = 100,
+                .description = "share of the cutting load that a micrometre of wear adds"});
+}
+
+void read_thermal(const CheckedTable& thermal, Configuration& c) {
+  const auto number = [&](const char* name, double fallback, const char* unit, double least,
+                          double most, const char* description) {
+    return thermal.get(NumberKey{.name = name,
+                                 .fallback = fallback,
+                                 .unit = unit,
+                                 .minimum = least,
+                                 .maximum = most,
+                                 .description = description});
+  };
+  ClimateSettings& climate = c.rig.mechanics.climate;
+  climate.chamber_c = number("chamber", -22, "degC", -190, 100, "what the cooler keeps");
+  climate.chamber_band_c =
+      number("chamber_band", 0.5, "degC", 0, 50, "so far above and below the cooler switches");
+  climate.ambient_c = number("ambient", 20, "degC", -190, 100, "outside");
+  climate.insulation_s =
+      number("insulation", 1800, "s", 1, 1e6, "time constant towards the ambient");
+  climate.cooling_c_s = number("cooling", 0.06, "degC/s", 0, 100, "by the cooler, while it is on");
+  climate.block_below_chamber_c =
+      number("block_below_chamber", 8, "degC", -100, 100, "by the holder's cold plate");
+  climate.block_s = number("block_time", 60, "s", 1, 1e6, "time constant of the block");
+  climate.grinding_c_s =
+      number("grinding", 0.02, "degC/s", 0, 100, "by which the wheel warms the block");
 }
 
 void read_camera(const CheckedTable& camera, Configuration& c) {
@@ -244,6 +305,8 @@ Configuration read_configuration(const bridge::CheckedTable& file) {
                     {bridge::Endpoint::Scheme::unix_socket}, "unix://path")
           .path;
   read_motion(file.table("motion"), c);
+  read_wheel(file.table("wheel"), c);
+  read_thermal(file.table("thermal"), c);
   read_camera(file.table("camera"), c);
   read_block(file.table("block"), c);
   file.refuse_unknown_keys();

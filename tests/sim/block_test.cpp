@@ -97,6 +97,60 @@ TEST(Mechanics, GrindsNothingWithTheWheelStandingOrTooHigh) {
   EXPECT_EQ(high.mechanics.block().state().passes, 0U);
 }
 
+TEST(Mechanics, LoadsTheSpindleByDepthSpeedAndWear) {
+  const auto load = [](double depth_um, double speed_um_s, const MechanicsSettings& settings) {
+    Machine machine{settings};
+    machine.sweep(900 + depth_um, 3000);
+    machine.mechanics.traverse.go_to(machine.mechanics.face_end_um(), speed_um_s);
+    while (!machine.mechanics.cutting()) machine.run(0.004);
+    machine.run(0.3);
+    return machine.mechanics.spindle_load_percent();
+  };
+  const double plain = load(100, 6000, {});
+  EXPECT_GT(load(200, 6000, {}), 1.5 * plain);
+  EXPECT_GT(load(100, 9000, {}), 1.3 * plain);
+  EXPECT_GT(load(100, 6000, {.wheel_wear_um_mm3 = 1, .load_per_wear_um = 1}), 1.3 * plain);
+}
+
+TEST(Mechanics, LeavesTheFaceHigherTheMoreTheWheelHasWorn) {
+  Machine machine{{.wheel_wear_um_mm3 = 0.1}};
+  const auto pass = [&](double feed_um) {
+    machine.mechanics.traverse.go_to(0, 60000);
+    machine.run(4);
+    machine.sweep(feed_um, 3000);
+    machine.run(4);
+  };
+  pass(1000);  // 100 µm of 10 mm × 10 mm: 10 mm³
+  EXPECT_NEAR(machine.mechanics.wheel_worn_um(), 1.0, 1e-6);
+  EXPECT_EQ(machine.mechanics.block().mean_um(), 1000);
+  pass(1020);
+  EXPECT_NEAR(machine.mechanics.block().mean_um(), 1019, 1e-6);
+}
+
+TEST(Mechanics, GrindsWhereTheWheelIsNotWhereTheScaleSays) {
+  Machine machine{{.feed = {.speed_um_s = 2000, .backlash_um = 5}}};
+  machine.mechanics.feed.go_to(1020, 2000);
+  machine.run(2);
+  machine.sweep(1018, 3000);  // from below: the wheel stays where it was
+  machine.run(3);
+  EXPECT_EQ(machine.mechanics.feed.position_um(), 1018);
+  EXPECT_EQ(machine.mechanics.block().mean_um(), 1020);
+}
+
+TEST(Mechanics, ShakesForAWhileAfterTheSpindleStopped) {
+  Machine machine{{.vibration_decay_s = 0.5}};
+  machine.mechanics.turn_spindle(3000);
+  machine.run(2);
+  const double turning = machine.mechanics.vibration_mm_s();
+  EXPECT_NEAR(turning, 0.15, 0.01);
+  machine.mechanics.turn_spindle(0);
+  machine.run(1.1);
+  EXPECT_EQ(machine.mechanics.spindle_rpm(), 0);
+  EXPECT_GT(machine.mechanics.vibration_mm_s(), 0.1 * turning);
+  machine.run(5);
+  EXPECT_LT(machine.mechanics.vibration_mm_s(), 0.01 * turning);
+}
+
 TEST(Mechanics, TakesTimeToMove) {
   Machine machine;
   machine.mechanics.column.go_to(4000, 4000);

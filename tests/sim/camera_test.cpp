@@ -101,6 +101,33 @@ TEST(Camera, SeesNextToNothingWithoutTheLamp) {
   EXPECT_LT(cv::mean(studio.take().image)[1], 2);
 }
 
+TEST(Camera, DarkensWithItsLamp) {
+  Studio studio;
+  const double bright = cv::mean(studio.take().image)[1];
+  studio.scene.lamp_share = 0.5;
+  EXPECT_NEAR(cv::mean(studio.take().image)[1], 0.5 * bright, 1);
+  studio.scene.lamp_share = 0;
+  EXPECT_LT(cv::mean(studio.take().image)[1], 2);
+}
+
+TEST(Camera, BlursAlongTheRowsWhileItShakes) {
+  Studio studio;
+  const auto edges = [&](int dx, int dy) {
+    cv::Mat grey;
+    cv::Mat derivative;
+    cv::cvtColor(studio.take().image, grey, cv::COLOR_RGB2GRAY);
+    cv::Sobel(grey, derivative, CV_32F, dx, dy);
+    return cv::norm(derivative, cv::NORM_L2SQR);
+  };
+  studio.sensor.read_noise_levels = 0;
+  studio.sensor.photons_at_white = 1e9;
+  const double across = edges(1, 0);
+  const double down = edges(0, 1);
+  studio.scene.vibration_mm_s = 10;  // 300 µm from end to end
+  EXPECT_LT(edges(1, 0), 0.6 * across);
+  EXPECT_GT(edges(0, 1) / down, edges(1, 0) / across);
+}
+
 TEST(Camera, SeesTheEmptyBedWhileTheBlockIsUnderTheWheel) {
   Studio studio;
   studio.scene.traverse_um = 150000;

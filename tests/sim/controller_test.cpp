@@ -211,6 +211,133 @@ TEST(Controller, WatchesItsMasterFromTheFirstHeartbeatOn) {
   EXPECT_FALSE(bench.controller.status().watchdog_tripped);
 }
 
+TEST(Controller, ReportsADriveThatDoesNotMoveAndKeepsItWhileItIsStalled) {
+  for (const auto stalled : {&MachineDefects::feed, &MachineDefects::traverse}) {
+    Bench bench;
+    bench.complete(Action::home);
+    bench.give(Action::grind_pass, 10000);
+    bench.run(1500ms);
+    MachineDefects defects;
+    (defects.*stalled).stalled = true;
+    bench.mechanics.set_defects(defects);
+    bench.run(400ms);
+    EXPECT_EQ(bench.state(), ControllerState::busy);
+    bench.run(10s);
+    EXPECT_EQ(bench.state(), ControllerState::faulted);
+    EXPECT_EQ(bench.controller.status().fault, Fault::drive);
+    EXPECT_EQ(bench.controller.memory().result, CommandResult::aborted);
+    EXPECT_EQ(bench.controller.memory().grind_count, 0U);
+  }
+}
+
+TEST(Controller, DoesNotResetADriveThatCannotLiftTheWheel) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.complete(Action::grind_pass, 1000);
+  bench.mechanics.set_defects({.feed = {.stalled = true}});
+  bench.complete(Action::retract);
+  EXPECT_EQ(bench.controller.status().fault, Fault::drive);
+  EXPECT_EQ(bench.complete(Action::reset_fault), CommandResult::refused);
+  bench.mechanics.set_defects({});
+  bench.run(2s);
+  EXPECT_EQ(bench.mechanics.feed.position_um(), 0);  // lifted at last
+  EXPECT_EQ(bench.complete(Action::reset_fault), CommandResult::done);
+}
+
+TEST(Controller, ReportsADriveThatDoesNotStandWhereItShould) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.complete(Action::move_column, 5000);
+  bench.mechanics.set_defects({.column = {.creep_um_s = 10}});
+  bench.run(1900ms);
+  EXPECT_EQ(bench.state(), ControllerState::idle);
+  bench.run(1s);
+  EXPECT_EQ(bench.controller.status().fault, Fault::drive);
+  bench.run(10s);
+  bench.mechanics.set_defects({});
+  EXPECT_EQ(bench.complete(Action::reset_fault), CommandResult::done);  // from where it is now
+}
+
+TEST(Controller, ReportsASpindleThatDoesNotStart) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.mechanics.set_defects({.spindle_blocked = true});
+  EXPECT_EQ(bench.complete(Action::grind_pass, 1000), CommandResult::aborted);
+  EXPECT_EQ(bench.controller.status().fault, Fault::drive);
+  EXPECT_EQ(bench.mechanics.block().deepest_um(), 900);
+}
+
+TEST(Controller, ReportsAnAxisBeyondItsLimitAndBringsItBack) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.complete(Action::move_column, 60000);
+  bench.mechanics.set_defects({.column = {.creep_um_s = 1000}});
+  bench.run(100ms);
+  EXPECT_EQ(bench.controller.status().fault, Fault::limit);
+  bench.complete(Action::reset_fault);
+  EXPECT_EQ(bench.controller.status().fault, Fault::limit);  // still, or again
+  bench.mechanics.set_defects({});
+  bench.run(1s);
+  EXPECT_EQ(bench.mechanics.column.position_um(), 60000);
+  EXPECT_EQ(bench.complete(Action::reset_fault), CommandResult::done);
+}
+
+TEST(Controller, StopsAnOverloadedSpindleOnceItLasts) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.give(Action::grind_pass, 1000);
+  while (!bench.mechanics.cutting()) bench.run(4ms);
+  bench.mechanics.set_defects({.extra_load_percent = 100});
+  bench.run(200ms);
+  EXPECT_EQ(bench.state(), ControllerState::busy);
+  bench.run(200ms);
+  EXPECT_EQ(bench.controller.status().fault, Fault::spindle_overload);
+  bench.run(2s);
+  EXPECT_EQ(bench.mechanics.spindle_rpm(), 0);
+  EXPECT_EQ(bench.complete(Action::reset_fault), CommandResult::done);
+}
+
+TEST(Controller, KeepsTheFirstCauseWhenAnotherComes) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.controller.set_inputs({false, true});
+  bench.mechanics.set_defects({.column = {.creep_um_s = 1000}});
+  bench.run(2s);
+  EXPECT_EQ(bench.controller.status().fault, Fault::door);
+  EXPECT_GT(bench.mechanics.column.position_um(), 1900);  // not a step while the door is open
+}
+
+TEST(Controller, ForgetsAllButItsPermanentMemoryWithoutPower) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.complete(Action::grind_pass, 1000);
+  bench.beat();
+  bench.give(Action::move_column, 50000);
+  bench.run(1s);
+  bench.controller.set_power(false);
+  EXPECT_EQ(bench.give(Action::stop), Acceptance::busy);
+  bench.run(5s);
+  EXPECT_EQ(bench.mechanics.spindle_rpm(), 0);
+  const double column_um = bench.mechanics.column.position_um();
+  EXPECT_LT(column_um, 50000);
+  bench.controller.set_power(true);
+  EXPECT_EQ(bench.state(), ControllerState::booting);
+  bench.run(5s);
+  EXPECT_EQ(bench.state(), ControllerState::idle);  // and its master is watched anew
+  EXPECT_FALSE(bench.controller.status().homed);
+  EXPECT_EQ(bench.controller.memory().result, CommandResult::aborted);
+  EXPECT_EQ(bench.controller.memory().grind_count, 1U);
+  EXPECT_EQ(bench.mechanics.column.position_um(), column_um);
+}
+
+TEST(Controller, GoesOnWhileItsHeartbeatStands) {
+  Bench bench;
+  bench.controller.stop_heartbeat(true);
+  const auto before = bench.controller.status().heartbeat;
+  EXPECT_EQ(bench.complete(Action::home), CommandResult::done);
+  EXPECT_EQ(bench.controller.status().heartbeat, before);
+}
+
 TEST(Controller, HasAHeartbeatOfItsOwn) {
   Bench bench;
   const auto before = bench.controller.status().heartbeat;
