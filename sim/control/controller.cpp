@@ -163,8 +163,7 @@ bool Controller::beyond_limits() const {
   };
   return beyond(mechanics_.feed, settings_.feed_minimum_um, settings_.feed_maximum_um) ||
          beyond(mechanics_.column, settings_.column_minimum_um, settings_.column_maximum_um) ||
-         beyond(mechanics_.traverse, -settings_.traverse_margin_um,
-                mechanics_.face_end_um() + settings_.traverse_margin_um);
+         beyond(mechanics_.traverse, traverse_minimum_um(), traverse_maximum_um());
 }
 
 Fault Controller::machine_fault() const {
@@ -207,8 +206,8 @@ void Controller::let_go() {
         machine.feed.speed_um_s);
   treat(mechanics_.column, settings_.column_minimum_um, settings_.column_maximum_um,
         machine.column.speed_um_s);
-  treat(mechanics_.traverse, -settings_.traverse_margin_um,
-        mechanics_.face_end_um() + settings_.traverse_margin_um, machine.traverse.speed_um_s);
+  treat(mechanics_.traverse, traverse_minimum_um(), traverse_maximum_um(),
+        machine.traverse.speed_um_s);
 }
 
 void Controller::carry_on(double rig_seconds) {

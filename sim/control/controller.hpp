@@ -26,7 +26,6 @@ struct ControllerSettings {
   double lift_um = 2000;  ///< how far the wheel goes up for the way to and from the block
   std::chrono::milliseconds watchdog_timeout{2000};  ///< of real time; 0: no watchdog
   double boot_seconds = 0.3;
-  double traverse_margin_um = 5000;  ///< from the ends of the block's way to its limits
   DriveLimits drives;
 };
 

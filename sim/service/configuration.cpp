@@ -150,7 +150,7 @@ void read_motion(const CheckedTable& motion, Configuration& c) {
     axis.backlash_um = number(name + "_backlash", backlash_um, "um", 0, 10000,
                               "play between the motor and what it moves");
     axis.overshoot_um =
-        number(name + "_overshoot", overshoot_um, "um", 0, 10000, "beyond a target, on arrival");
+        number(name + "_overshoot", overshoot_um, "um", 0, 40, "beyond a target, on arrival");
   };
   read_axis("feed", machine.feed, 2, 0.2);
   read_axis("traverse", machine.traverse, 2, 1);
