@@ -16,8 +16,9 @@ struct Scene {
   double traverse_um = 0;
   double column_um = 0;
   bool lamp_on = false;
-  double lamp_share = 1;      ///< of the light that the lamp should give
-  double vibration_mm_s = 0;  ///< RMS velocity of camera against block
+  double lamp_share = 1;       ///< of the light that the lamp should give
+  double vibration_mm_s = 0;   ///< RMS velocity of camera against block
+  double column_scale_um = 0;  ///< what the column's scale shows
 };
 
 struct CameraOptics {

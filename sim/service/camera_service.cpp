@@ -120,7 +120,7 @@ bridge::RigAnswer CameraService::photograph(const CameraCondition& condition) {
   const Photograph photograph = camera_.take(begin, end, exposure_);
   witness_.capture(rig_s, {.number = photograph.number,
                            .face_um = end.block.mean_um(),
-                           .column_um = end.column_um,
+                           .column_um = end.column_scale_um,
                            .defocus_um = photograph.defocus_um,
                            .blur_sigma_um = blur_sigma_um(optics_.lens, photograph.defocus_um),
                            .face_in_view = photograph.face_in_view,

@@ -258,7 +258,8 @@ Scene Rig::scene() const {
           mechanics_.column.mechanical_um(),
           lamp_on_,
           condition_.lamp_share,
-          mechanics_.vibration_mm_s()};
+          mechanics_.vibration_mm_s(),
+          mechanics_.column.position_um()};
 }
 
 CameraCondition Rig::camera_condition() const {

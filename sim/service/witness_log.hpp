@@ -18,7 +18,7 @@ namespace biotomy::sim {
 struct CaptureFacts {
   std::uint64_t number = 0;
   double face_um = 0;
-  double column_um = 0;
+  double column_um = 0;  ///< as its scale shows it
   double defocus_um = 0;
   double blur_sigma_um = 0;
   bool face_in_view = false;

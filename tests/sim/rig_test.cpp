@@ -260,6 +260,7 @@ TEST(Rig, ShowsAScaleThatIsWrongAndTheTruthToTheCamera) {
   rig.rig.add_event(lasting("scale", AxisReadsWrong{MachineAxis::column, 15}));
   rig.run(100ms);
   EXPECT_EQ(rig.rig.read().column_um, 5015);
+  EXPECT_EQ(rig.rig.scene().column_scale_um, 5015);
   EXPECT_EQ(rig.rig.scene().column_um, 5000);
 }
 
