@@ -6,6 +6,7 @@
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -40,9 +41,7 @@ bool same_spacing(const reconstruct::Vector3& a, const reconstruct::Vector3& b) 
 }
 
 SampleFolder open_or_create(const JobPlan& plan, const SampleDescription& wanted) {
-  const bool exists =
-      std::filesystem::exists(plan.sample) && !std::filesystem::is_empty(plan.sample);
-  if (!exists) return SampleFolder::create(plan.sample, wanted);
+  if (SampleFolder::can_begin(plan.sample)) return SampleFolder::create(plan.sample, wanted);
 
   SampleFolder sample = SampleFolder::open(plan.sample);
   const SampleDescription& found = sample.description();
@@ -79,6 +78,9 @@ SampleRecords::SampleRecords(const JobPlan& plan, const StorePlan& store,
                        static_cast<std::uint64_t>(camera.height) * kColours *
                        static_cast<std::uint64_t>(plan.bits / 8)) {
   check_committed_files();
+  // Of a daemon that was killed. The volume's writer looks after its own.
+  reconstruct::remove_unfinished_writes(sample_.layer_path(1).parent_path());
+  reconstruct::remove_unfinished_writes(sample_.rejected_path());
 }
 
 void SampleRecords::check_committed_files() const {

@@ -110,6 +110,16 @@ const toml::table& required_table(const toml::table& table, const char* key, con
   return *node->as_table();
 }
 
+/// Whether `create` makes this before the description.
+bool is_of_a_beginning(const fs::path& path) {
+  std::error_code error;
+  const fs::path name = path.filename();
+  if (name == kLayersName || name == kRejectedName) {
+    return fs::is_directory(fs::symlink_status(path, error)) && fs::is_empty(path, error);
+  }
+  return is_unfinished_write(path);
+}
+
 std::string read_description(const fs::path& file) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
@@ -160,12 +170,27 @@ SampleDescription parse(const fs::path& file) {
 SampleFolder::SampleFolder(fs::path path, SampleDescription description)
     : path_(std::move(path)), description_(std::move(description)) {}
 
+bool SampleFolder::can_begin(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    return true;
+  }
+  for (auto entry = fs::directory_iterator(path, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!is_of_a_beginning(entry->path())) {
+      return false;
+    }
+  }
+  return !error;
+}
+
 SampleFolder SampleFolder::create(const fs::path& path, const SampleDescription& description) {
   check(description, path / kDescriptionName);
   std::error_code error;
-  if (fs::exists(path, error) && !(fs::is_directory(path, error) && fs::is_empty(path, error))) {
+  if (!can_begin(path)) {
     fail(path, "is there already and not empty; choose another name or remove it");
   }
+  remove_unfinished_writes(path);
   fs::create_directories(path / kLayersName, error);
   if (!error) {
     fs::create_directories(path / kRejectedName, error);

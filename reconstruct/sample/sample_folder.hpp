@@ -20,8 +20,12 @@ struct SampleDescription {
 /// A sample on disk: the folder and the names of what lies in it.
 class SampleFolder {
  public:
-  /// Makes the folder with `sample.toml` and the empty folders in it. It must not exist yet, or be
-  /// empty. Throws SampleError.
+  /// Whether a sample can be begun at `path`: there is nothing, an empty folder, or what `create`
+  /// leaves when it is killed, which has no image and no description in it yet.
+  static bool can_begin(const std::filesystem::path& path);
+
+  /// Makes the folder with `sample.toml`, which comes last, and the empty folders in it. Throws
+  /// SampleError, also when a sample cannot begin there.
   static SampleFolder create(const std::filesystem::path& path,
                              const SampleDescription& description);
 

@@ -7,11 +7,13 @@
 #include <cstring>
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fcntl.h>
 #include <openssl/evp.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include "reconstruct/errors.hpp"
@@ -80,14 +82,31 @@ std::string sha256_of_descriptor(const FileDescriptor& file, const fs::path& pat
   }
 }
 
+/// `.NAME.PROCESS-NUMBER`; is_unfinished_write knows it again.
+std::string temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  std::ostringstream name;
+  name << '.' << target.filename().string() << '.' << ::getpid() << '-' << counter++;
+  return name.str();
+}
+
+/// Takes the decimal digits at the end of `text` off; empty if there are none.
+std::string_view take_last_digits(std::string_view& text) {
+  const std::size_t begin = text.find_last_not_of("0123456789") + 1;
+  const std::string_view digits = text.substr(begin);
+  text.remove_suffix(digits.size());
+  return digits;
+}
+
+bool lives(pid_t process) {
+  return ::kill(process, 0) == 0 || errno != ESRCH;
+}
+
 /// A file beside the one that it is to replace; removed again unless it was renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
-    static std::atomic<unsigned> counter{0};
-    std::ostringstream name;
-    name << '.' << target.filename().string() << '.' << ::getpid() << '-' << counter++;
-    path_ = folder_of(target) / name.str();
+    path_ = folder_of(target) / temporary_name(target);
     file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
     if (!file_.is_open()) {
       fail(target, "create a file beside it", errno);
@@ -184,6 +203,39 @@ std::string write_durably_verified(const fs::path& path, std::span<const std::by
   file.rename_to_target();
   sync_folder(folder_of(path));
   return expected;
+}
+
+bool is_unfinished_write(const fs::path& path) {
+  const std::string name = path.filename().string();
+  std::string_view rest = name;
+  if (take_last_digits(rest).empty() || !rest.ends_with('-')) {
+    return false;
+  }
+  rest.remove_suffix(1);
+  const std::string process(take_last_digits(rest));
+  const bool is_named_so = rest.size() > 2 && rest.starts_with('.') && rest.ends_with('.');
+  constexpr std::size_t kMostDigits = 9;
+  if (!is_named_so || process.empty() || process.size() > kMostDigits) {
+    return false;
+  }
+  const pid_t number = std::stoi(process);
+  std::error_code error;
+  return fs::is_regular_file(fs::symlink_status(path, error)) &&
+         (number == ::getpid() || !lives(number));
+}
+
+void remove_unfinished_writes(const fs::path& folder) {
+  std::vector<fs::path> unfinished;
+  std::error_code error;
+  for (auto entry = fs::recursive_directory_iterator(folder, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (is_unfinished_write(entry->path())) {
+      unfinished.push_back(entry->path());
+    }
+  }
+  for (const fs::path& path : unfinished) {
+    fs::remove(path, error);
+  }
 }
 
 void create_folders_durably(const fs::path& folder) {

@@ -27,6 +27,14 @@ void write_before_folder_sync(const std::filesystem::path& path, std::span<const
 std::string write_durably_verified(const std::filesystem::path& path,
                                    std::span<const std::byte> bytes);
 
+/// Whether this is a file that a process was writing durably when it was ended by force: it has the
+/// name of such a file, and no process of that number lives but this one.
+bool is_unfinished_write(const std::filesystem::path& path);
+
+/// Removes the unfinished writes below a folder, at any depth. Nothing of this process may be
+/// under way there. What cannot be removed stays: it is hidden and does no harm.
+void remove_unfinished_writes(const std::filesystem::path& folder);
+
 /// Makes a folder and those above it, so that they are still there after a crash. Several threads
 /// may make the same one. Throws SampleError.
 void create_folders_durably(const std::filesystem::path& folder);

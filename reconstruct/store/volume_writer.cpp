@@ -43,6 +43,7 @@ VolumeWriter::VolumeWriter(const SampleFolder& sample, const VolumeLayout& layou
       volume_(volume),
       array_{sample.description().cuboid.size, sample.description().bits, layout} {
   check_layout(layout);
+  remove_unfinished_writes(volume_);
   if (fs::exists(volume_ / kMetadataName)) {
     open();
   } else {

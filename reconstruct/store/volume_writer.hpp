@@ -12,6 +12,7 @@ namespace biotomy::reconstruct {
 /// Appends layers to a sample's `volume.ome.zarr`, a band (one shard's depth of layers) at a time,
 /// in all levels. Each shard is stored durably; the number of layers in the metadata grows only
 /// after all shards of the band are. A band that was interrupted is written anew.
+/// What a writer that was killed has left unfinished is removed by the next one.
 /// One writer at a time; readers may read at any moment.
 class VolumeWriter {
  public:

@@ -91,6 +91,25 @@ TEST(SampleFolder, MayBeMadeInAnEmptyFolder) {
   EXPECT_NO_THROW(SampleFolder::create(folder.path(), example()));
 }
 
+TEST(SampleFolder, MayBeMadeWhereAnotherProcessWasKilledMakingIt) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "layers");
+  write_text(folder.path() / ".sample.toml.999999999-0", "name = 'a");
+  EXPECT_TRUE(SampleFolder::can_begin(folder.path()));
+  EXPECT_NO_THROW(SampleFolder::create(folder.path(), example()));
+  EXPECT_FALSE(SampleFolder::can_begin(folder.path()));
+  EXPECT_THAT(names_in(folder.path()),
+              testing::UnorderedElementsAre("layers", "rejected", "sample.toml"));
+}
+
+TEST(SampleFolder, IsNotBegunWhereLayersAreWithoutADescription) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "layers");
+  write_text(folder.path() / "layers" / "000001.tif", "precious");
+  EXPECT_FALSE(SampleFolder::can_begin(folder.path()));
+  EXPECT_THROW(SampleFolder::create(folder.path(), example()), SampleError);
+}
+
 TEST(SampleFolder, RefusesAFolderThatIsThereAndNotEmpty) {
   const TemporaryFolder folder;
   write_text(folder.path() / "precious", "x");

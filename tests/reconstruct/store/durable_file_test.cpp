@@ -1,6 +1,7 @@
 #include "reconstruct/store/durable_file.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "reconstruct/errors.hpp"
 #include "tests/reconstruct/test_files.hpp"
@@ -54,6 +55,33 @@ TEST(DurableFile, VerifiedWritingReturnsTheHashOfTheFile) {
   // FIPS 180-2, appendix B.1.
   EXPECT_EQ(hash, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_of_file(folder.path() / "a"), hash);
+}
+
+TEST(DurableFile, RemovesWhatAKilledProcessLeftUnfinishedAndNothingElse) {
+  const TemporaryFolder folder;
+  const auto deep = folder.path() / "c" / "0";
+  std::filesystem::create_directories(deep);
+  const std::string nobody = "999999999";  // no process has such a number
+  const std::string parent = std::to_string(::getppid());
+  write_text(folder.path() / (".zarr.json." + nobody + "-17"), "half");
+  write_text(deep / (".3." + nobody + "-0"), "half");
+  write_text(deep / (".3." + std::to_string(::getpid()) + "-1"), "of a process of our number");
+  const std::vector<std::string> others{"3",
+                                        ".3." + parent + "-0",
+                                        ".hidden",
+                                        "3." + nobody + "-0",
+                                        ".3." + nobody,
+                                        ".3." + nobody + "-",
+                                        ".3." + nobody + "-0.json",
+                                        "." + nobody + "-0"};
+  for (const std::string& name : others) write_text(deep / name, "precious");
+  std::filesystem::create_directory(deep / (".folder." + nobody + "-0"));
+
+  remove_unfinished_writes(folder.path());
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("c"));
+  std::vector<std::string> kept = others;
+  kept.push_back(".folder." + nobody + "-0");
+  EXPECT_THAT(names_in(deep), testing::UnorderedElementsAreArray(kept));
 }
 
 TEST(DurableFile, HashOfAMissingFileIsAnError) {

@@ -118,6 +118,17 @@ TEST_F(Writer, OverwritesAShardOfABandThatWasInterrupted) {
   EXPECT_TRUE(layer_is_right(3));
 }
 
+TEST_F(Writer, RemovesWhatAKilledWriterLeftUnfinished) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  const auto shards = sample_.volume_path() / "0" / "c" / "0" / "0";
+  write_text(shards / ".0.999999999-3", "half a shard");
+  write_text(sample_.volume_path() / ".zarr.json.999999999-4", "half");
+  const VolumeWriter writer(sample_, small_layout());
+  EXPECT_FALSE(std::filesystem::exists(shards / ".0.999999999-3"));
+  EXPECT_FALSE(std::filesystem::exists(sample_.volume_path() / ".zarr.json.999999999-4"));
+  EXPECT_EQ(present(), 8);
+}
+
 TEST_F(Writer, DoesNotCountABandOfWhichALayerCannotBeRead) {
   truncate_file(sample_.layer_path(12), 0.5);
   VolumeWriter writer(sample_, small_layout());
