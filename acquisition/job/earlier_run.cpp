@@ -4,6 +4,7 @@
 
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/records/journal_reader.hpp"
+#include "acquisition/records/layer_journal.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -22,6 +23,7 @@ bool is_at_work(const std::string& state) {
 
 EarlierRun read_earlier_run(const std::filesystem::path& journal) {
   if (!std::filesystem::exists(journal)) return {};
+  const LayerJournal brought_up_to_date(journal);  // a reader knows the present version alone
   const JournalReader reader(journal);
   return {.last_sequence = reader.last_sequence(), .was_running = is_at_work(reader.last_state())};
 }

@@ -7,6 +7,8 @@
 
 #include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_schema.hpp"
+#include "reconstruct/errors.hpp"
+#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -58,6 +60,33 @@ auto with_journal(const std::filesystem::path& path, Work work) {
   }
 }
 
+/// Makes a journal with its tables, beside its name until it is whole: a daemon that is killed
+/// meanwhile leaves a journal or none, never one that nobody can read.
+void make_journal(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  const std::string fresh = path.parent_path() / ("." + path.filename().string() + ".new");
+  std::error_code error;
+  for (const char* part : {"", "-journal", "-wal", "-shm"}) fs::remove(fresh + part, error);
+  {
+    SQLite::Database database(fresh, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
+    database.exec("PRAGMA journal_mode = WAL");
+    database.exec("PRAGMA synchronous = FULL");
+    migrate_journal(database);
+  }  // closing puts all into the one file and removes the others
+  fs::rename(fresh, path, error);
+  if (error) throw JournalError("the journal " + path.string() + ": " + error.message());
+  try {
+    reconstruct::sync_folder(path.parent_path());
+  } catch (const reconstruct::SampleError& failure) {
+    throw JournalError(failure.what());
+  }
+}
+
+const std::filesystem::path& made(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) make_journal(path);
+  return path;
+}
+
 }  // namespace
 
 struct LayerJournal::State {
@@ -65,9 +94,8 @@ struct LayerJournal::State {
   SQLite::Database database;
 
   explicit State(const std::filesystem::path& journal_path)
-      : path(journal_path),
-        database(journal_path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
-                 kBusyTimeoutMs) {
+      : path(made(journal_path)),
+        database(journal_path.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs) {
     database.exec("PRAGMA journal_mode = WAL");
     database.exec("PRAGMA synchronous = FULL");
     database.exec("PRAGMA foreign_keys = ON");

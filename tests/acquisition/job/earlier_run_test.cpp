@@ -1,11 +1,13 @@
 // What a daemon does with a job that was running when the one before it ended.
 #include "acquisition/job/earlier_run.hpp"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "acquisition/job/job.hpp"
 #include "tests/acquisition/job_bench.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
 namespace {
@@ -25,6 +27,14 @@ TEST(EarlierRun, OfNoJournalTellsOfNothing) {
   const EarlierRun earlier = read_earlier_run("no/such/journal.sqlite");
   EXPECT_EQ(earlier.last_sequence, 0U);
   EXPECT_FALSE(earlier.was_running);
+}
+
+TEST(EarlierRun, IsReadFromTheJournalOfAnOlderProgram) {
+  const TemporaryFolder folder;
+  const std::filesystem::path old = folder.path() / "journal.sqlite";
+  SQLite::Database(old.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("PRAGMA user_version = 0");
+  EXPECT_EQ(read_earlier_run(old).last_sequence, 0U);
 }
 
 TEST(EarlierRun, WasRunningInEveryStepOfALayer) {

@@ -115,6 +115,18 @@ TEST_F(LayerJournalTest, IsWrittenAheadAndFullySynchronous) {
   EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), journal_version());
 }
 
+TEST_F(LayerJournalTest, IsMadeAnewWhereAMakerWasKilled) {
+  std::ofstream(folder.path() / ".journal.sqlite.new") << "half";
+  std::ofstream(folder.path() / ".journal.sqlite.new-wal") << "of it";
+  { const LayerJournal journal(path); }
+  EXPECT_EQ(JournalReader(path).committed_count(), 0);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    names.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(names, testing::Each(testing::StartsWith("journal.sqlite")));
+}
+
 TEST_F(LayerJournalTest, RefusesAJournalOfANewerProgram) {
   {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
