@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "acquisition/job/capture.hpp"
+#include "acquisition/job/job_states.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "acquisition/records/utc_time.hpp"
 
@@ -94,7 +95,8 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   PreflightFindings findings;
   findings.camera = camera.describe();
   camera.apply(settings.camera.settings);
-  check_frame(capture(camera, settings.camera.capture_time_out), findings.camera, settings.plan);
+  const bridge::Frame trial = capture(camera, settings.camera.capture_time_out);
+  check_frame(trial, findings.camera, settings.plan);
   check_clock(surroundings.wall_clock());
   findings.records =
       std::make_shared<SampleRecords>(settings.plan, settings.store, findings.camera, surroundings);
@@ -102,6 +104,8 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   findings.disk_left_layers = findings.records->disk_left_layers();
 
   check_clock_against(findings.journal.last_event_at, surroundings.wall_clock());
+  findings.records->record_event("recovery", to_string(JobState::preflight), 0,
+                                 "trial frame " + std::to_string(trial.sequence));
 
   const std::int64_t layers_to_do = settings.plan.layers - findings.journal.last_committed;
   const std::int64_t reserve = settings.limits.disk_reserve_layers;

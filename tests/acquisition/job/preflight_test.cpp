@@ -72,6 +72,13 @@ TEST(Preflight, RefusesAClockThatIsBehindTheJournal) {
   EXPECT_THAT(bench.alarm(), HasSubstr("set the clock before going on"));
 }
 
+TEST(Preflight, WritesDownThatItTookATrialFrame) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  EXPECT_THAT(bench.events_of_kind("recovery"), HasSubstr("trial frame 1\n"));
+}
+
 TEST(Preflight, RefusesACameraOfOtherBits) {
   JobBench bench;
   bench.settings.plan.bits = 16;
