@@ -42,10 +42,10 @@ std::filesystem::path UndisturbedRun::sample() {
 }
 
 void KilledRun::run_daemon_for(From from, std::chrono::microseconds time) {
-  rig_.launch_daemon();
   if (from == From::work) {
-    rig_.await_daemon();
     go_on();
+  } else {
+    rig_.launch_daemon();
   }
   const std::jthread killer([&] {
     std::this_thread::sleep_for(time);
@@ -63,7 +63,7 @@ void KilledRun::await_kill(bool go_on_meanwhile) {
   if (go_on_meanwhile) {
     try {
       rig_.await_daemon();
-      go_on();
+      operate();
     } catch (const std::runtime_error&) {
       // It was killed meanwhile; if it was not, the way it ends tells.
     }
@@ -81,12 +81,16 @@ void KilledRun::note_kill() {
 }
 
 std::int64_t KilledRun::committed() const {
-  const std::filesystem::path journal = rig_.sample() / "journal.sqlite";
-  if (!std::filesystem::exists(journal)) return 0;
-  return static_cast<std::int64_t>(read_run_journal(journal).layers.size());
+  return static_cast<std::int64_t>(
+      read_run_journal(rig_.sample() / "journal.sqlite").layers.size());
 }
 
 void KilledRun::go_on() {
+  if (!rig_.daemon_runs()) rig_.start_daemon();
+  operate();
+}
+
+void KilledRun::operate() {
   const auto deadline = steady_clock::now() + kPatience;
   for (;;) {
     const nlohmann::json status = rig_.status();

@@ -41,9 +41,9 @@ class KilledRun {
   /// To be called while what was killed is not running yet again.
   void note_kill();
 
-  /// What an operator does with a rig that stands still: acknowledges, starts, resumes; until it is
-  /// at its steps again or done. Throws std::runtime_error when it will not go on, or the daemon is
-  /// gone.
+  /// Starts the daemon unless it runs, and does what an operator does with a rig that stands still:
+  /// acknowledges, starts, resumes; until it is at its steps again or done. Throws
+  /// std::runtime_error when it will not go on.
   void go_on();
 
   /// Goes on with the job to its end, however often it stops.
@@ -60,6 +60,7 @@ class KilledRun {
 
  private:
   void await_kill(bool go_on_meanwhile);
+  void operate();
   void act(const std::string& state, const std::string& alarm);
 
   SimulatedRig rig_;

@@ -89,7 +89,6 @@ TEST_P(KillingPoint, LeavesARunThatGoesOnToItsEnd) {
     EXPECT_EQ(passes_begun(run.rig(), point.begun), point.begun);
   }
 
-  run.rig().start_daemon();
   run.finish();
   EXPECT_THAT(run.verdict(undisturbed.sample()), testing::IsEmpty());
   EXPECT_THAT(run.alarms(), testing::IsEmpty());
@@ -156,16 +155,18 @@ std::vector<NamedPoint> points_of_the_volume() {
 
 std::vector<NamedPoint> points_of_the_beginning() {
   const std::string journal = "*/sample/journal.sqlite";
+  const std::string fresh_journal = "*/sample/.journal.sqlite.new";
   const std::string wal = journal + "-wal";
   return {
       {"BeforeTheSampleIsDescribed", "before create */sample/.sample.toml.*"},
       {"BeforeTheDescriptionHasItsName", "before rename */sample/sample.toml"},
       {"AfterTheDescriptionHasItsName", "after rename */sample/sample.toml"},
-      {"BeforeTheJournalIsMade", "before create " + journal},
-      {"AfterTheJournalIsMade", "after create " + journal},
-      {"WhileTheJournalIsBegun", "amid write " + journal},
-      {"BeforeTheJournalsTablesAreSynced", "before sync " + wal},
-      {"AfterTheJournalsTablesAreSynced", "after sync " + wal},
+      {"BeforeTheJournalIsMade", "before create " + fresh_journal},
+      {"WhileTheJournalIsMade", "amid write " + fresh_journal},
+      {"BeforeTheJournalHasItsName", "before rename " + journal},
+      {"AfterTheJournalHasItsName", "after rename " + journal},
+      {"WhileTheFirstRecordIsWritten", "amid write " + wal},
+      {"AfterTheFirstRecordIsSynced", "after sync " + wal},
       {"BeforeItIsHomed", "before send " + command_bytes(bridge::StageAction::home)},
       {"AfterHomingIsCommanded", "after send " + command_bytes(bridge::StageAction::home)},
       {"DuringTheFirstFocusSearch", "after send " + text_bytes("\"capture\"") + " 4"},

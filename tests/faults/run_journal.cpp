@@ -3,11 +3,15 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/temporary_folder.hpp"
+
 namespace biotomy::tests {
 
 namespace {
 
-constexpr int kBusyTimeoutMs = 5000;
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTrial = "trial frame ";
 
 template <typename Row, typename Make>
 std::vector<Row> rows(const SQLite::Database& database, const char* query, Make make) {
@@ -26,11 +30,24 @@ RunJournal::Search search_of(SQLite::Statement& row) {
   return search;
 }
 
+/// The files of the journal, so far as they are there, in `folder`. The index of the log is left
+/// out: it is made anew.
+fs::path copy_of(const fs::path& journal, const fs::path& folder) {
+  for (const char* part : {"-journal", "-wal", ""}) {
+    const fs::path from = journal.string() + part;
+    if (fs::exists(from)) fs::copy_file(from, folder / from.filename());
+  }
+  return folder / journal.filename();
+}
+
 }  // namespace
 
 RunJournal read_run_journal(const std::filesystem::path& journal) {
-  const SQLite::Database database(journal.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
   RunJournal run;
+  if (!fs::exists(journal)) return run;
+  const TemporaryFolder folder;
+  SQLite::Database database(copy_of(journal, folder.path()).string(), SQLite::OPEN_READWRITE);
+  if (!database.tableExists("events")) return run;
   run.grinds = rows<RunJournal::Grind>(
       database, "SELECT sequence, layer, target_um, intended_at FROM grinds ORDER BY sequence",
       [](SQLite::Statement& row) {
@@ -63,6 +80,13 @@ RunJournal read_run_journal(const std::filesystem::path& journal) {
       });
   run.searches = rows<RunJournal::Search>(
       database, "SELECT at, layer, points FROM focus_sweeps ORDER BY id", search_of);
+  run.trials = rows<RunJournal::Trial>(
+      database, "SELECT at, text FROM events WHERE text LIKE 'trial frame %' ORDER BY id",
+      [](SQLite::Statement& row) {
+        return RunJournal::Trial{
+            .at = row.getColumn(0).getString(),
+            .frame = std::stoull(row.getColumn(1).getString().substr(kTrial.size()))};
+      });
   run.alarms = rows<RunJournal::Alarm>(
       database, "SELECT at, state FROM events WHERE kind = 'alarm' ORDER BY id",
       [](SQLite::Statement& row) {

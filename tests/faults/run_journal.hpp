@@ -35,6 +35,11 @@ struct RunJournal {
     std::int64_t layer = 0;
     std::vector<double> columns_um;
   };
+  /// A frame that was taken to see whether the camera works.
+  struct Trial {
+    std::string at;
+    std::uint64_t frame = 0;
+  };
   struct Alarm {
     std::string at;
     std::string state;  ///< in which it came
@@ -44,10 +49,13 @@ struct RunJournal {
   std::vector<Attempt> attempts;  ///< in the order in which they were recorded
   std::vector<Layer> layers;      ///< by section number
   std::vector<Search> searches;
+  std::vector<Trial> trials;
   std::vector<Alarm> alarms;
 };
 
-/// Throws std::runtime_error when it cannot be read.
+/// Of a copy, so that what a killed daemon left is mended by the daemon and not by the reader. A
+/// journal that is not there, or without tables yet, says nothing. Throws std::runtime_error when
+/// it cannot be read.
 RunJournal read_run_journal(const std::filesystem::path& journal);
 
 }  // namespace biotomy::tests

@@ -225,13 +225,26 @@ class Judge {
     return last;
   }
 
-  /// The frame of an attempt is known by its number, of which there is one since each start of the
-  /// twin.
+  /// Of a number there is one since each start of the twin.
+  std::optional<std::size_t> last_frame_of(std::uint64_t number, const std::string& until) const {
+    return last_frame_until(
+        until, [number](const WitnessedFrame& frame) { return frame.number == number; });
+  }
+
+  void match_trials() {
+    for (const RunJournal::Trial& trial : journal_.trials) {
+      if (const auto match = last_frame_of(trial.frame, trial.at)) {
+        recorded_[*match] = true;
+      } else {
+        complaints_.add("the trial frame ", trial.frame, " of ", trial.at,
+                        " was not taken by the twin");
+      }
+    }
+  }
+
   void match_attempts() {
     for (const RunJournal::Attempt& attempt : journal_.attempts) {
-      const auto match = last_frame_until(attempt.taken_at, [&](const WitnessedFrame& frame) {
-        return frame.number == attempt.frame;
-      });
+      const auto match = last_frame_of(attempt.frame, attempt.taken_at);
       if (!match) {
         complaints_.add("attempt ", attempt.attempt, " at layer ", attempt.layer, " shows frame ",
                         attempt.frame, ", which the twin did not take then");
@@ -273,6 +286,7 @@ class Judge {
 
   void judge_frames() {
     recorded_.assign(witness_.frames.size(), false);
+    match_trials();
     match_attempts();
     match_searches();
     for (std::size_t i = 0; i < witness_.frames.size(); ++i) {
@@ -314,7 +328,7 @@ class Judge {
   RunJournal journal_;
   std::map<std::int64_t, const RunJournal::Layer*> layers_;
   std::vector<std::string> stops_;
-  std::vector<bool> recorded_;  ///< of each frame: as an attempt or in a search
+  std::vector<bool> recorded_;  ///< of each frame: in a trial, an attempt or a search
   Complaints complaints_;
 };
 

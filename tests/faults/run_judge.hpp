@@ -36,8 +36,9 @@ struct FinishedRun {
 /// - every layer is committed and its file is there with its hash;
 /// - its photograph was taken of its own face, by the lamp's light, and shows what an undisturbed
 ///   run's layer shows, by far better than that layer's neighbours do;
-/// - every frame that the twin took is in the journal: as an attempt, or as a point of a focus
-///   search. A search that was broken off leaves no record, and a kill loses the frame on its way.
+/// - every frame that the twin took is in the journal: as an attempt, as a point of a focus
+///   search, or as a trial of the camera. A search that was broken off leaves no record, and a kill
+///   loses the frame on its way.
 std::vector<std::string> judge(const FinishedRun& run,
                                const std::filesystem::path& undisturbed_sample);
 

@@ -144,7 +144,10 @@ class MadeUpRun {
     journal_.record_focus(row, now());
   }
 
-  void alarm(const char* state) { journal_.record_event("alarm", state, 1, "made up", now()); }
+  void note(const char* kind, const char* text, const char* state = "preflight") {
+    journal_.record_event(kind, state, 1, text, now());
+  }
+  void alarm(const char* state) { note("alarm", "made up", state); }
 
   void kill(std::int64_t committed) { kills_.push_back({now(), committed}); }
 
@@ -348,6 +351,13 @@ TEST_F(RunJudge, TakesFramesOfASearchForWhatTheyAre) {
   run.take_frame(1);
   run.commit(1);
   run.make_from(2);
+  EXPECT_THAT(verdict(), IsEmpty());
+}
+
+TEST_F(RunJudge, TakesATrialFrameForWhatItIs) {
+  run.take_frame(1);
+  run.note("recovery", "trial frame 1");
+  run.make_from(1);
   EXPECT_THAT(verdict(), IsEmpty());
 }
 

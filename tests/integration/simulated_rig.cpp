@@ -109,7 +109,9 @@ void SimulatedRig::send_daemon(int signal) const {
 }
 
 Outcome SimulatedRig::await_daemon_end(seconds limit) {
-  return daemon_->wait(limit);
+  Outcome end = daemon_->wait(limit);
+  daemon_.reset();
+  return end;
 }
 
 Outcome SimulatedRig::rig(const std::string& command, seconds limit) {

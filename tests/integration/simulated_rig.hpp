@@ -38,6 +38,7 @@ class SimulatedRig {
   void launch_daemon(const std::vector<std::string>& environment = {});
   void await_daemon();
 
+  bool daemon_runs() const { return daemon_ != nullptr; }  ///< as far as this object has seen
   void send_daemon(int signal) const;
 
   /// Waits until the daemon has ended by itself. Throws std::runtime_error when time is up.
