@@ -1,11 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -14,8 +19,8 @@
 
 namespace biotomy::tests {
 
-/// Stands in for systemd: a datagram socket at a path, named to programs in the environment as
-/// long as the object lives, and told by them what they tell systemd.
+/// Stands in for systemd: a datagram socket at a path, which programs find in the environment as
+/// long as the object lives, and which keeps all that they say.
 class NotifySocket {
  public:
   explicit NotifySocket(const std::filesystem::path& path, std::chrono::microseconds watchdog = {})
@@ -28,35 +33,61 @@ class NotifySocket {
     }
     setenv("NOTIFY_SOCKET", path.c_str(), 1);
     if (watchdog.count() > 0) setenv("WATCHDOG_USEC", std::to_string(watchdog.count()).c_str(), 1);
+    reader_ = std::jthread([this](const std::stop_token& stop) { read(stop); });
   }
   ~NotifySocket() {
     unsetenv("NOTIFY_SOCKET");
     unsetenv("WATCHDOG_USEC");
+    reader_.request_stop();
+    reader_.join();
     close(socket_);
   }
   NotifySocket(const NotifySocket&) = delete;
   NotifySocket& operator=(const NotifySocket&) = delete;
 
-  /// The next message; empty when none comes within the time.
-  std::string receive(std::chrono::milliseconds time) {
-    pollfd wait{socket_, POLLIN, 0};
-    if (poll(&wait, 1, static_cast<int>(time.count())) <= 0) return "";
-    std::array<char, 8192> text{};
-    const ssize_t count = recv(socket_, text.data(), text.size(), 0);
-    return {text.data(), count > 0 ? static_cast<std::size_t>(count) : 0};
+  /// Waits until messages with `part` in them were said more than `times` times; false when time
+  /// is up.
+  bool await(const std::string& part, std::chrono::milliseconds time, std::size_t times = 0) {
+    std::unique_lock lock(mutex_);
+    return said_.wait_for(lock, time, [&] { return count_of(part) > times; });
   }
 
-  /// Reads on until a message has `part` in it; false when time is up.
-  bool await(const std::string& part, std::chrono::seconds time) {
-    const auto limit = std::chrono::steady_clock::now() + time;
-    while (std::chrono::steady_clock::now() < limit) {
-      if (receive(std::chrono::milliseconds(100)).find(part) != std::string::npos) return true;
-    }
-    return false;
+  /// How many messages had `part` in them so far.
+  std::size_t count(const std::string& part) const {
+    const std::scoped_lock lock(mutex_);
+    return count_of(part);
+  }
+
+  std::vector<std::string> messages() const {
+    const std::scoped_lock lock(mutex_);
+    return messages_;
   }
 
  private:
+  std::size_t count_of(const std::string& part) const {
+    return static_cast<std::size_t>(std::count_if(
+        messages_.begin(), messages_.end(),
+        [&](const std::string& message) { return message.find(part) != std::string::npos; }));
+  }
+
+  void read(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      pollfd wait{socket_, POLLIN, 0};
+      if (poll(&wait, 1, 20) <= 0) continue;
+      std::array<char, 8192> text{};
+      const ssize_t count = recv(socket_, text.data(), text.size(), 0);
+      if (count < 0) continue;
+      const std::scoped_lock lock(mutex_);
+      messages_.emplace_back(text.data(), static_cast<std::size_t>(count));
+      said_.notify_all();
+    }
+  }
+
   int socket_;
+  mutable std::mutex mutex_;
+  std::condition_variable said_;
+  std::vector<std::string> messages_;
+  std::jthread reader_;
 };
 
 }  // namespace biotomy::tests

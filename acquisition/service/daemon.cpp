@@ -240,6 +240,7 @@ int run_daemon(const Configuration& configuration) {
     watch_over(signals, control, liveness, systemd, board);
     log_info(kComponent, "is ending: brings the rig to rest");
     systemd.stopping();
+    systemd.extend_stop(kStopExtension);
     came_to_rest = bring_to_rest(signals, control, liveness, systemd, board, desk,
                                  configuration.service.stop_limit);
     if (!came_to_rest && !control.failed) end_if_control_hangs(liveness);

@@ -32,6 +32,8 @@ class ChildProcess {
 
   void send(int signal) const;
 
+  pid_t pid() const { return pid_; }
+
   /// Waits for the end. Throws std::runtime_error when time is up.
   Outcome wait(std::chrono::seconds limit);
 

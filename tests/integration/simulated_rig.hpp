@@ -22,7 +22,7 @@ struct RigPlan {
   double layer_thickness_um = 20;
   double first_face_um = 1000;
   double time_scale = 200;
-  std::string daemon_settings = {};  ///< tables of rig.toml beside those that every rig has
+  std::string daemon_settings = {};  ///< the end of rig.toml: more keys of [service], then tables
 };
 
 /// A twin and a daemon as processes of their own, in a folder of their own; both are killed when
@@ -47,6 +47,14 @@ class SimulatedRig {
   /// At the same address as before, with what it remembers.
   void start_twin();
   void kill_twin();
+
+  /// SIGTERM, and waits for the end.
+  Outcome end_daemon(std::chrono::seconds limit = std::chrono::seconds(60));
+
+  pid_t daemon_pid() const { return daemon_->pid(); }
+
+  /// Where the daemon listens: "http://127.0.0.1:8080".
+  const std::string& url() const { return url_; }
 
   /// `biotomy rig COMMAND`.
   Outcome rig(const std::string& command, std::chrono::seconds limit = std::chrono::seconds(60));

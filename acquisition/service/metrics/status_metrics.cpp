@@ -66,7 +66,7 @@ std::vector<MetricFamily> layer_families(const JobStatus& status) {
   MetricFamily sharpness{"biotomy_last_layer_sharpness", gauge,
                          "Sharpness of the last layer, as its focus measure has it."};
   MetricFamily quality{"biotomy_last_layer_quality", gauge,
-                       "A metric of the last layer's assessment, such as its brightness."};
+                       "A metric of the last layer's assessment, such as its sharpness_ratio."};
   MetricFamily limit{"biotomy_last_layer_quality_limit", gauge,
                      "The threshold that the metric was compared with."};
   if (status.last_layer) {

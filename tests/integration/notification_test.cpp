@@ -1,0 +1,115 @@
+// Messages of the real daemon, over a real web server and a real program.
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/integration/hook_server.hpp"
+#include "tests/integration/simulated_rig.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using nlohmann::json;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+RigPlan plan_with(const std::string& notify, int layers = 3) {
+  RigPlan plan;
+  plan.layers = layers;
+  plan.width = 64;
+  plan.height = 48;
+  plan.daemon_settings = notify;
+  return plan;
+}
+
+std::string webhook(const HookServer& hook) {
+  return "[notify]\nwebhook = \"" + hook.url() +
+         "\"\nfirst_retry_ms = 20\nlongest_retry_ms = 100\n";
+}
+
+TEST(Notifications, TellTheEndOfAJobByCommandAndByWebhook) {
+  HookServer hook;
+  SimulatedRig rig(plan_with(webhook(hook) + "command = [\"/bin/sh\", \"-c\", \"cat > told\"]\n"));
+  rig.start_daemon();
+  ASSERT_EQ(rig.rig("start").exit_code, 0);
+  ASSERT_EQ(rig.rig("watch", seconds(120)).exit_code, 0);
+  const json message = hook.await_message("done");
+  ASSERT_FALSE(message.is_null());
+  EXPECT_EQ(message.at("committed"), 3);
+  EXPECT_EQ(message.at("job"), "sample");
+  EXPECT_EQ(rig.end_daemon().exit_code, 0);
+  EXPECT_EQ(hook.messages().size(), 1U);
+}
+
+TEST(Notifications, TellAFaultAndTheEndOfIt) {
+  HookServer hook;
+  SimulatedRig rig(plan_with("[safety]\ngrind_limit_ms = 1\n" + webhook(hook)));
+  rig.start_daemon();
+  ASSERT_EQ(rig.rig("start").exit_code, 0);
+  const Outcome watched = rig.rig("watch", seconds(120));
+  EXPECT_EQ(watched.exit_code, 1);
+  EXPECT_THAT(watched.errors, HasSubstr("the rig is stopped: grinding took longer than 1 ms"));
+  const json message = hook.await_message("fault");
+  ASSERT_FALSE(message.is_null());
+  EXPECT_THAT(message.at("text").get<std::string>(), HasSubstr("grinding took longer than 1 ms"));
+  const auto limit = std::chrono::steady_clock::now() + seconds(60);
+  while (rig.rig("acknowledge").exit_code != 0) {  // it is still being parked
+    ASSERT_LT(std::chrono::steady_clock::now(), limit);
+  }
+  EXPECT_FALSE(hook.await_message("fault", true).is_null());
+}
+
+TEST(Notifications, SurviveADaemonThatIsKilledBeforeTheyAreDelivered) {
+  HookServer hook;
+  hook.refuse(true);
+  SimulatedRig rig(plan_with(webhook(hook), 1000));
+  rig.start_daemon();
+  ASSERT_EQ(rig.rig("start").exit_code, 0);
+  const auto limit = std::chrono::steady_clock::now() + seconds(60);
+  while (rig.status().at("committed") < 1) ASSERT_LT(std::chrono::steady_clock::now(), limit);
+  rig.kill_daemon();
+  rig.start_daemon();  // finds that the one before it ended at work
+  ASSERT_TRUE(hook.await_attempts(3));
+  rig.kill_daemon();
+  EXPECT_TRUE(hook.messages().empty());
+  hook.refuse(false);
+  rig.start_daemon();
+  const json message = hook.await_message("interrupted");
+  ASSERT_FALSE(message.is_null());
+  EXPECT_THAT(message.at("text").get<std::string>(), HasSubstr("the job sample, since "));
+}
+
+TEST(Notifications, DoNotCallARunInterruptedThatWasEndedInOrder) {
+  HookServer hook;
+  SimulatedRig rig(plan_with(webhook(hook), 1000));
+  rig.start_daemon();
+  ASSERT_EQ(rig.rig("start").exit_code, 0);
+  EXPECT_EQ(rig.end_daemon().exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(rig.folder() / "notifications/rig-at-work"));
+  EXPECT_TRUE(hook.messages().empty());
+}
+
+TEST(Notifications, CanBeTried) {
+  HookServer hook;
+  SimulatedRig rig(plan_with(webhook(hook) +
+                             "command = [\"/bin/sh\", \"-c\", \"echo no paper >&2; exit 3\"]\n"));
+  const Outcome outcome = run(
+      {BIOTOMY_DAEMON, "--test-notification", "--config", rig.folder() / "rig.toml"}, rig.folder());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("webhook: delivered"));
+  EXPECT_THAT(outcome.errors, HasSubstr("command: /bin/sh failed, exit code 3: no paper"));
+  EXPECT_FALSE(hook.await_message("test").is_null());
+}
+
+TEST(Notifications, SayWhenThereIsNobodyToTell) {
+  SimulatedRig rig(plan_with(""));
+  const Outcome outcome = run(
+      {BIOTOMY_DAEMON, "--test-notification", "--config", rig.folder() / "rig.toml"}, rig.folder());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("set notify.command or notify.webhook"));
+}
+
+}  // namespace
+}  // namespace biotomy::tests

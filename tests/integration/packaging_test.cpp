@@ -1,0 +1,80 @@
+// What is installed beside the programs: held against systemd's own tools, where they are.
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/integration/child_process.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using testing::HasSubstr;
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Packaging : testing::Test {
+  TemporaryFolder folder;
+
+  /// The unit as installed, but with the program that was just built.
+  std::filesystem::path unit() const {
+    std::string text = content_of(std::filesystem::path(BIOTOMY_PACKAGING) / "biotomyd.service");
+    const std::string installed = "/usr/bin/biotomyd";
+    const std::size_t at = text.find(installed);
+    EXPECT_NE(at, std::string::npos);
+    text.replace(at, installed.size(), BIOTOMY_DAEMON);
+    const std::filesystem::path file = folder / "biotomyd.service";
+    std::ofstream(file) << text;
+    return file;
+  }
+};
+
+bool is_executable(const char* path) {
+  return ::access(path, X_OK) == 0;
+}
+
+TEST_F(Packaging, HasAUnitThatSystemdUnderstands) {
+  if (!is_executable("/usr/bin/systemd-analyze"))
+    GTEST_SKIP() << "systemd-analyze is not installed";
+  const Outcome outcome =
+      run({"/usr/bin/systemd-analyze", "verify", "--man=no", unit()}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.errors, testing::Not(HasSubstr("biotomyd.service"))) << outcome.errors;
+}
+
+TEST_F(Packaging, HasAUnitThatCanDoLittle) {
+  if (!is_executable("/usr/bin/systemd-analyze"))
+    GTEST_SKIP() << "systemd-analyze is not installed";
+  const Outcome outcome = run({"/usr/bin/systemd-analyze", "security", "--no-pager",
+                               "--offline=yes", "--threshold=25", unit()},
+                              folder.path());
+  if (outcome.errors.find("unrecognized option") != std::string::npos) {
+    GTEST_SKIP() << "this systemd-analyze cannot look at a file offline";
+  }
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.errors;  // 2.5 of 10 at most
+}
+
+TEST_F(Packaging, MakesTheUserAndTheGroupsThatTheUnitNames) {
+  if (!is_executable("/usr/bin/systemd-sysusers")) {
+    GTEST_SKIP() << "systemd-sysusers is not installed";
+  }
+  std::filesystem::create_directories(folder / "etc");
+  const Outcome outcome = run({"/usr/bin/systemd-sysusers", "--root=" + folder.path().string(),
+                               BIOTOMY_PACKAGING "/biotomy.sysusers"},
+                              folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(content_of(folder / "etc/passwd"), HasSubstr("biotomy:"));
+  for (const char* group : {"biotomy:", "gpio:", "video:", "dialout:"}) {
+    EXPECT_THAT(content_of(folder / "etc/group"), HasSubstr(group));
+  }
+}
+
+}  // namespace
+}  // namespace biotomy::tests
