@@ -24,6 +24,7 @@ struct Courier::State {
   mutable std::mutex mutex;
   std::condition_variable_any changed;
   MessageQueue queue;
+  bool fresh = false;  ///< a message came since the last attempt
   std::uint64_t delivered = 0;
   std::uint64_t failed_attempts = 0;
   std::jthread thread;
@@ -32,9 +33,11 @@ struct Courier::State {
     std::chrono::milliseconds pause{0};  // before the next attempt
     std::unique_lock lock(mutex);
     while (!stop.stop_requested()) {
-      changed.wait_for(lock, stop, pause, [] { return false; });
+      // A new message does not wait for the pause of an old one: the way may be free by now.
+      changed.wait_for(lock, stop, pause, [this] { return fresh; });
       changed.wait(lock, stop, [this] { return queue.size() > 0; });
       if (stop.stop_requested()) return;
+      fresh = false;
       const MessageQueue::Message message = *queue.front();
       lock.unlock();
       const std::optional<std::string> failure = attempt(message.text, stop);
@@ -79,6 +82,7 @@ void Courier::take(const std::string& message) {
   {
     const std::scoped_lock lock(state_->mutex);
     state_->queue.push(message);
+    state_->fresh = true;
   }
   state_->changed.notify_all();
 }

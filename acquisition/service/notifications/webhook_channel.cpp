@@ -76,22 +76,37 @@ void WebhookChannel::deliver(const std::string& message, std::chrono::millisecon
   client.set_read_timeout(time_out);
   client.set_write_timeout(time_out);
   client.set_follow_location(false);
-  const nlohmann::json document = nlohmann::json::parse(message);
-  httplib::Headers headers = {{"User-Agent", std::string("biotomyd/") + BIOTOMY_VERSION},
-                              {"Idempotency-Key", document.at("id").get<std::string>()}};
-  if (!token_.empty()) headers.emplace("Authorization", "Bearer " + token_);
-
+  httplib::Request request;
+  request.method = "POST";
+  request.path = url_.path;
+  request.body = message;
+  request.set_header("Content-Type", "application/json");
+  request.set_header("User-Agent", std::string("biotomyd/") + BIOTOMY_VERSION);
+  request.set_header("Idempotency-Key", nlohmann::json::parse(message).at("id").get<std::string>());
+  if (!token_.empty()) request.set_header("Authorization", "Bearer " + token_);
+  int status = 0;
+  request.response_handler = [&status](const httplib::Response& response) {
+    status = response.status;
+    return true;
+  };
+  // Of what the server says only the beginning is taken, however much it is.
+  std::string words;
+  request.content_receiver = [&words](const char* data, std::size_t length, std::uint64_t,
+                                      std::uint64_t) {
+    words.append(data, length);
+    return words.size() < kLongestReason;
+  };
   const httplib::Result result = [&] {
     const CutOff cut_off(client, time_out, stop);
-    return client.Post(url_.path, headers, message, "application/json");
+    return client.send(request);
   }();
-  if (!result) {
+  if (status == 0) {
     if (stop.stop_requested()) throw DeliveryError(url_.origin + " was given up with the daemon");
     throw DeliveryError(url_.origin + " does not answer: " + httplib::to_string(result.error()));
   }
-  if (result->status < 200 || result->status > 299) {
-    throw DeliveryError(url_.origin + " answers with status " + std::to_string(result->status) +
-                        ": " + first_line(result->body));
+  if (status < 200 || status > 299) {
+    throw DeliveryError(url_.origin + " answers with status " + std::to_string(status) + ": " +
+                        first_line(words));
   }
 }
 

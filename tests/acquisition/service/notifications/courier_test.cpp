@@ -52,11 +52,21 @@ TEST_F(CourierTest, LeavesToTheNextOneWhatItCouldNotDeliver) {
   {
     const auto messenger = courier();
     messenger->take("1");
-    messenger->take("2");
     ASSERT_TRUE(log->await_attempts(1));
   }
   EXPECT_THAT(log->delivered, ElementsAre());
   const auto next = courier();
+  ASSERT_TRUE(log->await_delivered(1));
+  EXPECT_THAT(log->delivered, ElementsAre("1"));
+}
+
+TEST_F(CourierTest, TriesAtOnceWhenANewMessageComes) {
+  settings.first_retry = settings.longest_retry = std::chrono::hours(1);
+  log->failures_to_come = 1;
+  const auto messenger = courier();
+  messenger->take("1");
+  ASSERT_TRUE(log->await_attempts(1));
+  messenger->take("2");
   ASSERT_TRUE(log->await_delivered(2));
   EXPECT_THAT(log->delivered, ElementsAre("1", "2"));
 }

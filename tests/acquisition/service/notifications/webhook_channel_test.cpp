@@ -43,6 +43,9 @@ class HookServer {
     server_.Post("/elsewhere", [](const httplib::Request&, httplib::Response& response) {
       response.set_redirect("/hook");
     });
+    server_.Post("/talkative", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content(std::string(10'000'000, 'x'), "text/plain");
+    });
     port_ = server_.bind_to_any_port("127.0.0.1");
     thread_ = std::thread([this] { server_.listen_after_bind(); });
     server_.wait_until_ready_or_so();
@@ -121,6 +124,12 @@ TEST(WebhookChannel, FollowsNoRedirection) {
   WebhookChannel channel(*split_url(server.origin() + "/elsewhere"), "");
   EXPECT_THAT(delivering(channel), ThrowsMessage<DeliveryError>(HasSubstr("status 302")));
   EXPECT_TRUE(server.requests().empty());
+}
+
+TEST(WebhookChannel, NeedsNoMoreThanTheStatusOfAnAnswer) {
+  HookServer server;
+  WebhookChannel channel(*split_url(server.origin() + "/talkative"), "");
+  EXPECT_NO_THROW(channel.deliver(message(), kTime, {}));
 }
 
 TEST(WebhookChannel, SaysWhenNobodyAnswers) {
