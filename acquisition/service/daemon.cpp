@@ -45,6 +45,7 @@ constexpr const char* kJournalName = "journal.sqlite";
 constexpr milliseconds kLook{200};     // between two looks of the main thread at the others
 constexpr milliseconds kStopLook{50};  // the same while the rig is brought to rest
 constexpr milliseconds kStopExtension{10000};
+constexpr milliseconds kSignInterval{1000};
 constexpr milliseconds kWorkerSlack{60000};
 constexpr milliseconds kHung{5000};  // without a tick
 constexpr int kCallsInATick = 8;     // to one device, each answered late, at most
@@ -62,7 +63,7 @@ void warn_of_short_watchdog(const ServiceManager& systemd, const Configuration& 
   const milliseconds longest_tick = kCallsInATick * configuration.stage.response_timeout +
                                     kCallsInATick * configuration.lines.response_timeout;
   const auto period = systemd.watchdog_period();
-  if (!period || *period > longest_tick) return;
+  if (!period || *period > longest_tick + kSignInterval) return;
   log_warning(kComponent,
               "systemd's WatchdogSec is not longer than devices that do not answer may "
               "hold up a tick, " +
@@ -128,9 +129,30 @@ struct ControlState {
   std::atomic<bool> at_rest{true};
 };
 
+/// Passes the daemon's signs of life on to systemd, no more often than it needs them.
+class SignsOfLife {
+ public:
+  SignsOfLife(Liveness& liveness, ServiceManager& systemd)
+      : liveness_(liveness), systemd_(systemd) {}
+
+  /// True when one was given now.
+  bool give() {
+    const auto now = steady_clock::now();
+    if (now < next_ || !liveness_.take_progress(now)) return false;
+    next_ = now + kSignInterval;
+    systemd_.alive();
+    return true;
+  }
+
+ private:
+  Liveness& liveness_;
+  ServiceManager& systemd_;
+  TimePoint next_{};
+};
+
 /// Until a signal, or until the control loop has failed.
-void watch_over(const StopSignals& signals, const ControlState& control, Liveness& liveness,
-                ServiceManager& systemd, const StatusBoard& board) {
+void watch_over(const StopSignals& signals, const ControlState& control, const Liveness& liveness,
+                SignsOfLife& life, ServiceManager& systemd, const StatusBoard& board) {
   bool ready = false;
   bool complained = false;
   while (!control.failed && !signals.wait(ready ? kLook : kStopLook)) {
@@ -139,7 +161,7 @@ void watch_over(const StopSignals& signals, const ControlState& control, Livenes
       ready = true;
     }
     if (ready) systemd.status(status_line(*board.look()));
-    if (liveness.take_progress(steady_clock::now())) systemd.alive();
+    life.give();
     if (const auto complaint = liveness.complaint(steady_clock::now()); !complaint) {
       complained = false;
     } else if (!std::exchange(complained, true)) {
@@ -149,7 +171,7 @@ void watch_over(const StopSignals& signals, const ControlState& control, Livenes
 }
 
 /// Asks the job to come to rest and waits for it. False when it did not within the limit.
-bool bring_to_rest(const StopSignals& signals, const ControlState& control, Liveness& liveness,
+bool bring_to_rest(const StopSignals& signals, const ControlState& control, SignsOfLife& life,
                    ServiceManager& systemd, const StatusBoard& board, OperatorDesk& desk,
                    milliseconds stop_limit) {
   auto reply = desk.post(OperatorCommand::shut_down, "");
@@ -158,10 +180,7 @@ bool bring_to_rest(const StopSignals& signals, const ControlState& control, Live
     const bool heard = reply.wait_for(milliseconds(0)) == std::future_status::ready;
     if (heard && control.at_rest) return true;
     // As long as it parks it may park, up to its own limit; a hung daemon asks for no time.
-    if (liveness.take_progress(steady_clock::now())) {
-      systemd.alive();
-      systemd.extend_stop(kStopExtension);
-    }
+    if (life.give()) systemd.extend_stop(kStopExtension);
     systemd.status("stopping: " + status_line(*board.look()));
     signals.wait(kStopLook);
   }
@@ -219,6 +238,7 @@ int run_daemon(const Configuration& configuration) {
   const HttpServer server(api, configuration.service.host, configuration.service.port);
 
   Liveness liveness([&] { return worker.busy_since(); }, worker_limit(configuration.job));
+  SignsOfLife life(liveness, systemd);
   ControlState control;
   bool came_to_rest = false;
   {
@@ -237,11 +257,11 @@ int run_daemon(const Configuration& configuration) {
         });
     log_info(kComponent, "listening on http://" + configuration.service.host + ":" +
                              std::to_string(server.port()));
-    watch_over(signals, control, liveness, systemd, board);
+    watch_over(signals, control, liveness, life, systemd, board);
     log_info(kComponent, "is ending: brings the rig to rest");
     systemd.stopping();
     systemd.extend_stop(kStopExtension);
-    came_to_rest = bring_to_rest(signals, control, liveness, systemd, board, desk,
+    came_to_rest = bring_to_rest(signals, control, life, systemd, board, desk,
                                  configuration.service.stop_limit);
     if (!came_to_rest && !control.failed) end_if_control_hangs(liveness);
   }
