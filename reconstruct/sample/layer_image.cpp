@@ -148,10 +148,19 @@ Bytes encode_layer_image(const std::filesystem::path& path, const cv::Mat& image
   return memory;
 }
 
+PublishLayer prepare_layer_image(const std::filesystem::path& path, const cv::Mat& image,
+                                 const LayerPosition& position, const LayerFormat& format) {
+  auto file =
+      std::make_shared<VerifiedFile>(path, encode_layer_image(path, image, position, format));
+  return [file] {
+    file->publish();
+    return StoredLayer{file->bytes(), file->sha256()};
+  };
+}
+
 StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& image,
                               const LayerPosition& position, const LayerFormat& format) {
-  const Bytes file = encode_layer_image(path, image, position, format);
-  return {file.size(), write_durably_verified(path, file)};
+  return prepare_layer_image(path, image, position, format)();
 }
 
 }  // namespace biotomy::reconstruct

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,9 +43,17 @@ struct StoredLayer {
 std::vector<std::byte> encode_layer_image(const std::filesystem::path& path, const cv::Mat& image,
                                           const LayerPosition& position, const LayerFormat& format);
 
-/// Encodes `image` (CV_8UC3 or CV_16UC3, R G B) and stores it durably: written beside, fsynced,
-/// read back and its hash compared, renamed, the folder fsynced. Replaces a file of that name.
-/// Throws SampleError; then no file of that name is new.
+/// Gives a prepared layer its name, for good; to be called once. Whoever lets go of it without a
+/// call gives the layer up, and nothing remains of it. Throws SampleError.
+using PublishLayer = std::function<StoredLayer()>;
+
+/// All of storing a layer but its name: `image` is encoded, written beside `path`, fsynced, read
+/// back and compared. What was there under `path` stays. Throws SampleError.
+PublishLayer prepare_layer_image(const std::filesystem::path& path, const cv::Mat& image,
+                                 const LayerPosition& position, const LayerFormat& format);
+
+/// Prepares and publishes. Replaces a file of that name. Throws SampleError; then no file of that
+/// name is new.
 StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& image,
                               const LayerPosition& position, const LayerFormat& format);
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "reconstruct/store/temporary_file.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -22,18 +25,25 @@ void write_durably(const std::filesystem::path& path, const FileParts& parts);
 /// sync_folder was called. For many files of one folder, which are then synced together.
 void write_before_folder_sync(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// As write_durably, and what the disk gives back is compared before the file gets its name, so
-/// that the old content is lost only to a good copy of the new. Returns the SHA-256.
-std::string write_durably_verified(const std::filesystem::path& path,
-                                   std::span<const std::byte> bytes);
+/// A file that is on the disk, whole, and was read back and compared, but does not have its name
+/// yet. Until `publish`, what its name held before is untouched; without it the file is removed.
+/// Throws SampleError.
+class VerifiedFile {
+ public:
+  VerifiedFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Whether this is a file that a process was writing durably when it was ended by force: it has the
-/// name of such a file, and no process of that number lives but this one.
-bool is_unfinished_write(const std::filesystem::path& path);
+  /// Gives it its name, for good: after a crash it is still there.
+  void publish();
 
-/// Removes the unfinished writes below a folder, at any depth. Nothing of this process may be
-/// under way there. What cannot be removed stays: it is hidden and does no harm.
-void remove_unfinished_writes(const std::filesystem::path& folder);
+  std::uint64_t bytes() const { return bytes_; }
+  const std::string& sha256() const { return sha256_; }
+
+ private:
+  std::filesystem::path folder_;
+  TemporaryFile file_;
+  std::uint64_t bytes_;
+  std::string sha256_;
+};
 
 /// Makes a folder and those above it, so that they are still there after a crash. Several threads
 /// may make the same one. Throws SampleError.

@@ -47,14 +47,26 @@ TEST(DurableFile, RemovesTheTemporaryFileWhenTheNameIsTakenByAFolder) {
   EXPECT_THAT(names_in(folder.path()), ElementsAre("taken"));
 }
 
-TEST(DurableFile, VerifiedWritingReturnsTheHashOfTheFile) {
+TEST(VerifiedFile, GetsItsNameOnlyWhenItIsPublished) {
   const TemporaryFolder folder;
+  write_durably(folder.path() / "a", std::string("old"));
   const std::string text = "abc";
-  const std::string hash =
-      write_durably_verified(folder.path() / "a", std::as_bytes(std::span(text)));
+  VerifiedFile file(folder.path() / "a", std::as_bytes(std::span(text)));
+  EXPECT_EQ(sha256_of_file(folder.path() / "a"), sha256(std::as_bytes(std::span("old", 3))));
+  file.publish();
+  EXPECT_EQ(file.bytes(), 3U);
   // FIPS 180-2, appendix B.1.
-  EXPECT_EQ(hash, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256_of_file(folder.path() / "a"), hash);
+  EXPECT_EQ(file.sha256(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256_of_file(folder.path() / "a"), file.sha256());
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("a"));
+}
+
+TEST(VerifiedFile, LeavesNothingWhenItIsGivenUp) {
+  const TemporaryFolder folder;
+  write_durably(folder.path() / "a", std::string("old"));
+  { const VerifiedFile file(folder.path() / "a", std::as_bytes(std::span("new", 3))); }
+  EXPECT_EQ(read_file(folder.path() / "a").size(), 3U);
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("a"));
 }
 
 TEST(DurableFile, RemovesWhatAKilledProcessLeftUnfinishedAndNothingElse) {
