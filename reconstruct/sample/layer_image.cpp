@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <zlib.h>
 #include <zstd.h>
 
@@ -28,8 +29,7 @@ using Bytes = std::vector<std::byte>;
 /// its left (TIFF 6.0, section 14: predictor 2). Beyond the border the last pixel goes on, which
 /// costs nothing after the prediction.
 template <typename Sample>
-Bytes predicted_tile(const cv::Mat& image, int x, int y) {
-  Bytes bytes(std::size_t{kTile} * kTile * kChannels * sizeof(Sample));
+void predict_tile(const cv::Mat& image, int x, int y, Bytes& bytes) {
   auto* out = reinterpret_cast<Sample*>(bytes.data());
   const int columns = std::min(kTile, image.cols - x);
   for (int row = 0; row < kTile; ++row, out += kTile * kChannels) {
@@ -39,53 +39,83 @@ Bytes predicted_tile(const cv::Mat& image, int x, int y) {
     for (int i = kChannels; i < columns * kChannels; ++i) {
       out[i] = static_cast<Sample>(in[i] - in[i - kChannels]);
     }
+    std::fill(out + columns * kChannels, out + kTile * kChannels, Sample{0});
   }
-  return bytes;
 }
 
 struct FreeContext {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
-/// With zstd's checksum of four bytes, so that whoever reads the layer notices a changed byte.
-/// (Deflate has one as well, but libtiff does not look at it.)
-Bytes compress_zstd(const Bytes& plain, int level) {
-  Bytes encoded(ZSTD_compressBound(plain.size()));
-  const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-  const std::size_t size =
-      ZSTD_compress2(context.get(), encoded.data(), encoded.size(), plain.data(), plain.size());
-  if (ZSTD_isError(size) != 0) {
-    throw SampleError(std::string("zstd cannot compress a tile: ") + ZSTD_getErrorName(size));
+/// Compresses one tile after the other; what it works with is kept from tile to tile.
+class TileEncoder {
+ public:
+  TileEncoder(const cv::Mat& image, const LayerFormat& format)
+      : image_(image),
+        format_(format),
+        plain_(std::size_t{kTile} * kTile * kChannels * image.elemSize1()) {
+    if (format.compression != LayerCompression::zstd) {
+      encoded_.resize(compressBound(plain_.size()));
+      return;
+    }
+    encoded_.resize(ZSTD_compressBound(plain_.size()));
+    context_.reset(ZSTD_createCCtx());
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, format.level);
+    // What the predictor leaves of a photograph is noise, in which matches are chance. Short ones
+    // cost more than they save: without those below 7 bytes, noise takes 0.4 of the time and 1 %
+    // less room, and pictures without noise what they took before.
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_minMatch, 7);
+    // zstd's own checksum of four bytes, so that whoever reads the layer notices a changed byte.
+    // (Deflate has one as well, but libtiff does not look at it.)
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
   }
-  encoded.resize(size);
-  return encoded;
-}
 
-Bytes compress_deflate(const Bytes& plain, int level) {
-  uLongf size = compressBound(plain.size());
-  Bytes encoded(size);
-  if (compress2(reinterpret_cast<Bytef*>(encoded.data()), &size,
-                reinterpret_cast<const Bytef*>(plain.data()), plain.size(), level) != Z_OK) {
-    throw SampleError("zlib cannot compress a tile");
+  Bytes encode(int x, int y) {
+    if (image_.depth() == CV_8U) {
+      predict_tile<std::uint8_t>(image_, x, y, plain_);
+    } else {
+      predict_tile<std::uint16_t>(image_, x, y, plain_);
+    }
+    const std::size_t size = context_ ? compress_zstd() : compress_deflate();
+    return {encoded_.begin(), encoded_.begin() + static_cast<std::ptrdiff_t>(size)};
   }
-  encoded.resize(size);
-  return encoded;
-}
+
+ private:
+  std::size_t compress_zstd() {
+    const std::size_t size = ZSTD_compress2(context_.get(), encoded_.data(), encoded_.size(),
+                                            plain_.data(), plain_.size());
+    if (ZSTD_isError(size) != 0) {
+      throw SampleError(std::string("zstd cannot compress a tile: ") + ZSTD_getErrorName(size));
+    }
+    return size;
+  }
+
+  std::size_t compress_deflate() {
+    uLongf size = encoded_.size();
+    if (compress2(reinterpret_cast<Bytef*>(encoded_.data()), &size,
+                  reinterpret_cast<const Bytef*>(plain_.data()), plain_.size(),
+                  format_.level) != Z_OK) {
+      throw SampleError("zlib cannot compress a tile");
+    }
+    return size;
+  }
+
+  const cv::Mat& image_;
+  const LayerFormat& format_;
+  std::unique_ptr<ZSTD_CCtx, FreeContext> context_;  ///< none for deflate
+  Bytes plain_;
+  Bytes encoded_;
+};
 
 std::vector<Bytes> encode_tiles(const cv::Mat& image, const LayerFormat& format) {
   const int across = (image.cols + kTile - 1) / kTile;
   const int down = (image.rows + kTile - 1) / kTile;
   std::vector<Bytes> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  tbb::enumerable_thread_specific<TileEncoder> encoders([&] { return TileEncoder(image, format); });
   whole_loop(tiles.size(), [&](std::size_t number) {
     const int x = static_cast<int>(number % static_cast<std::size_t>(across)) * kTile;
     const int y = static_cast<int>(number / static_cast<std::size_t>(across)) * kTile;
-    const Bytes plain = image.depth() == CV_8U ? predicted_tile<std::uint8_t>(image, x, y)
-                                               : predicted_tile<std::uint16_t>(image, x, y);
-    tiles[number] = format.compression == LayerCompression::zstd
-                        ? compress_zstd(plain, format.level)
-                        : compress_deflate(plain, format.level);
+    tiles[number] = encoders.local().encode(x, y);
   });
   return tiles;
 }

@@ -135,6 +135,19 @@ TEST_F(LayerImage, ReplacesTheFileAndLeavesNothingBeside) {
   EXPECT_THAT(names_in(folder_.path()), testing::ElementsAre("000007.tif"));
 }
 
+TEST_F(LayerImage, OnlyPreparedIsNotThere) {
+  const PublishLayer publish = prepare_layer_image(path_, image_, kPosition, {});
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  const StoredLayer stored = publish();
+  EXPECT_EQ(stored.sha256, sha256_of_file(path_));
+  EXPECT_TRUE(same_pixels(read_layer_image(path_), image_));
+}
+
+TEST_F(LayerImage, OnlyPreparedAndGivenUpLeavesNothing) {
+  prepare_layer_image(path_, image_, kPosition, {});
+  EXPECT_TRUE(names_in(folder_.path()).empty());
+}
+
 TEST_F(LayerImage, RefusesAGreyImage) {
   EXPECT_THROW(write_layer_image(path_, cv::Mat(4, 4, CV_8UC1), kPosition, {}), SampleError);
   EXPECT_TRUE(names_in(folder_.path()).empty());
