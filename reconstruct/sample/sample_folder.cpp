@@ -190,16 +190,14 @@ SampleFolder SampleFolder::create(const fs::path& path, const SampleDescription&
   if (!can_begin(path)) {
     fail(path, "is there already and not empty; choose another name or remove it");
   }
-  remove_unfinished_writes(path);
-  fs::create_directories(path / kLayersName, error);
-  if (!error) {
-    fs::create_directories(path / kRejectedName, error);
-  }
-  if (error) {
-    fail(path, "cannot create the sample folder: " + error.message());
-  }
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  create_folders_durably(folder / kLayersName);
+  create_folders_durably(folder / kRejectedName);
+  // Once more, as what was there may have been made by a program that was killed before it could.
+  sync_folder(folder.parent_path());
+  sync_folder(folder);
+  remove_unfinished_writes(folder);
   write_durably(path / kDescriptionName, to_toml(description));
-  sync_folder(fs::absolute(path).lexically_normal().parent_path());
   return {path, description};
 }
 

@@ -24,8 +24,8 @@ class SampleFolder {
   /// leaves when it is killed, which has no image and no description in it yet.
   static bool can_begin(const std::filesystem::path& path);
 
-  /// Makes the folder with `sample.toml`, which comes last, and the empty folders in it. Throws
-  /// SampleError, also when a sample cannot begin there.
+  /// Makes the folder with `sample.toml`, which comes last, and the empty folders in it, durably.
+  /// Throws SampleError, also when a sample cannot begin there.
   static SampleFolder create(const std::filesystem::path& path,
                              const SampleDescription& description);
 

@@ -57,6 +57,20 @@ TEST(SampleFolder, IsTheSameWhenItIsOpenedAgain) {
   EXPECT_EQ(description.cuboid.spacing, example().cuboid.spacing);
 }
 
+TEST(SampleFolder, IsNotMadeWhereAnythingElseIs) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a/notes.txt", "b/layers/000001.tif", "c"}) {
+    std::filesystem::create_directories((folder.path() / name).parent_path());
+    write_text(folder.path() / name, "x");
+  }
+  for (const char* taken : {"a", "b", "c"}) {
+    EXPECT_THAT(
+        message_of<SampleError>([&] { SampleFolder::create(folder.path() / taken, example()); }),
+        HasSubstr("is there already and not empty"))
+        << taken;
+  }
+}
+
 TEST(SampleFolder, CountsLayerImagesUpToTheFirstGap) {
   const TemporaryFolder folder;
   SampleDescription description = example();
