@@ -1,23 +1,41 @@
 #include "acquisition/quality/assessment.hpp"
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/utility.hpp>
 
 #include "acquisition/quality/sharpness.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
+template <typename Sample>
+std::int64_t count_clipped(const Sample* pixels, int count) {
+  constexpr Sample kFull = std::numeric_limits<Sample>::max();
+  std::int64_t clipped = 0;
+  for (int i = 0; i < count; ++i, pixels += 3) {
+    clipped += static_cast<int>(pixels[0] == kFull || pixels[1] == kFull || pixels[2] == kFull);
+  }
+  return clipped;
+}
+
 /// The part of pixels in which at least one colour is at full scale.
 double clipped_fraction(const cv::Mat& image) {
-  std::array<cv::Mat, 3> colours;
-  cv::split(image, colours.data());
-  const double full = image.depth() == CV_16U ? 65535.0 : 255.0;
-  const cv::Mat clipped = (colours[0] >= full) | (colours[1] >= full) | (colours[2] >= full);
-  return static_cast<double>(cv::countNonZero(clipped)) / static_cast<double>(image.total());
+  std::atomic<std::int64_t> clipped{0};
+  cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
+    std::int64_t found = 0;
+    for (int y = rows.start; y < rows.end; ++y) {
+      found += image.depth() == CV_16U ? count_clipped(image.ptr<std::uint16_t>(y), image.cols)
+                                       : count_clipped(image.ptr<std::uint8_t>(y), image.cols);
+    }
+    clipped += found;
+  });
+  return static_cast<double>(clipped) / static_cast<double>(image.total());
 }
 
 std::string sentence(const char* format, double value, double limit) {
