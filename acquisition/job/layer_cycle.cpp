@@ -121,17 +121,21 @@ void LayerCycle::begin_capture(const bridge::StageStatus& status) {
 
 void LayerCycle::begin_assessment() {
   expectation_.focus_sharpness = focus_memory_.peak_sharpness();
-  assessment_ = run_on(parts_.worker, [frame = in_hand_, expectation = expectation_,
-                                       thresholds = settings_.thresholds] {
-    return assess(frame->frame, expectation, thresholds);
+  assessment_ = parts_.keeper.ask([frame = in_hand_, expectation = expectation_,
+                                   thresholds = settings_.thresholds](SampleRecords& records) {
+    return assess_and_prepare(records, *frame, expectation, thresholds);
   });
 }
 
 std::optional<JobEvent> LayerCycle::judge() {
-  in_hand_->assessment = assessment_.get();
+  AssessedFrame assessed = assessment_.get();
+  in_hand_->assessment = std::move(assessed.assessment);
   remember_judgement();
   expectation_.previous_sequence = in_hand_->frame.sequence;
-  if (in_hand_->assessment.verdict == Verdict::accepted) return JobEvent::frame_accepted;
+  if (in_hand_->assessment.verdict == Verdict::accepted) {
+    in_hand_->prepared = std::move(assessed.layer);
+    return JobEvent::frame_accepted;
+  }
 
   log_warning("quality", "layer " + std::to_string(layer_) + ", attempt " +
                              std::to_string(attempt_) + ": " + in_hand_->assessment.reason);
@@ -224,6 +228,7 @@ void LayerCycle::abandon(const std::string& why) {
         [frame = *in_hand_, let_go](SampleRecords& records) { let_go(frame, records); });
   }
   in_hand_.reset();
+  assessment_ = {};
 }
 
 std::string LayerCycle::waiting_for(JobState step) const {

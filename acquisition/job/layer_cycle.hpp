@@ -7,6 +7,7 @@
 #include <string>
 
 #include "acquisition/focus/focus_memory.hpp"
+#include "acquisition/job/assessed_frame.hpp"
 #include "acquisition/job/focus_step.hpp"
 #include "acquisition/job/grind_step.hpp"
 #include "acquisition/job/job_settings.hpp"
@@ -99,7 +100,7 @@ class LayerCycle {
   std::future<JudgedFrame> capture_;
   std::shared_ptr<JudgedFrame> in_hand_;
   std::shared_ptr<JudgedFrame> best_rejected_;
-  std::future<Assessment> assessment_;
+  std::future<AssessedFrame> assessment_;
   std::future<Stored> stored_;
   std::string last_rejection_;  ///< why the last frame that was rejected was not good enough
   std::optional<CommittedLayer> last_committed_;

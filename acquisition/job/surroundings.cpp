@@ -26,7 +26,7 @@ Surroundings real_surroundings() {
       .wall_clock = [] { return std::chrono::system_clock::now(); },
       .free_bytes =
           [](const std::filesystem::path& path) { return std::filesystem::space(path).available; },
-      .write_layer = reconstruct::write_layer_image,
+      .prepare_layer = reconstruct::prepare_layer_image,
       .open_volume = append_to_volume};
 }
 

@@ -19,10 +19,11 @@ namespace biotomy::acquisition {
 struct Surroundings {
   std::function<std::chrono::system_clock::time_point()> wall_clock;
   std::function<std::uintmax_t(const std::filesystem::path&)> free_bytes;
-  std::function<reconstruct::StoredLayer(const std::filesystem::path&, const cv::Mat&,
-                                         const reconstruct::LayerPosition&,
-                                         const reconstruct::LayerFormat&)>
-      write_layer;
+  /// Called from any thread.
+  std::function<reconstruct::PublishLayer(const std::filesystem::path&, const cv::Mat&,
+                                          const reconstruct::LayerPosition&,
+                                          const reconstruct::LayerFormat&)>
+      prepare_layer;
   std::function<VolumeFeed::Append(const reconstruct::SampleFolder&,
                                    const reconstruct::VolumeLayout&)>
       open_volume;

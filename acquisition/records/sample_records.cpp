@@ -1,12 +1,13 @@
 #include "acquisition/records/sample_records.hpp"
 
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/temporary_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -78,7 +79,8 @@ SampleRecords::SampleRecords(const JobPlan& plan, const StorePlan& store,
                        static_cast<std::uint64_t>(camera.height) * kColours *
                        static_cast<std::uint64_t>(plan.bits / 8)) {
   check_committed_files();
-  // Of a daemon that was killed. The volume's writer looks after its own.
+  // The lock on the sample keeps others out: what is unfinished there is of a daemon that was
+  // killed.
   reconstruct::remove_unfinished_writes(sample_.layer_path(1).parent_path());
   reconstruct::remove_unfinished_writes(sample_.rejected_path());
 }
@@ -129,15 +131,25 @@ void SampleRecords::record_rejected(const JudgedFrame& frame) {
   journal_.record_attempt(row);
 }
 
+reconstruct::PublishLayer SampleRecords::prepare_layer(const JudgedFrame& frame) const {
+  try {
+    return surroundings_.prepare_layer(
+        sample_.layer_path(frame.layer), frame.frame.image,
+        {.layer = frame.layer, .spacing = sample_.description().cuboid.spacing},
+        store_.layer_format);
+  } catch (...) {
+    return [error = std::current_exception()]() -> reconstruct::StoredLayer {
+      std::rethrow_exception(error);
+    };
+  }
+}
+
 std::uint64_t SampleRecords::commit_layer(const JudgedFrame& frame) {
   AttemptRow row = row_of(frame);
   const std::filesystem::path path = sample_.layer_path(frame.layer);
   reconstruct::StoredLayer stored;
   try {
-    stored = surroundings_.write_layer(
-        path, frame.frame.image,
-        {.layer = frame.layer, .spacing = sample_.description().cuboid.spacing},
-        store_.layer_format);
+    stored = frame.prepared ? frame.prepared() : prepare_layer(frame)();
   } catch (const std::exception& error) {
     row.assessment.verdict = Verdict::not_stored;
     row.assessment.slug = "not-stored";

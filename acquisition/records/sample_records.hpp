@@ -13,6 +13,7 @@
 #include "acquisition/records/rejected_frames.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/camera/frame.hpp"
+#include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
@@ -26,6 +27,7 @@ struct JudgedFrame {
   std::string taken_at;
   bridge::Micrometres column{};
   bridge::StageStatus telemetry;
+  reconstruct::PublishLayer prepared = {};  ///< its layer; empty if nobody has prepared it
 };
 
 /// All that is written of a sample but the volume: layer images, rejected frames, the journal.
@@ -50,8 +52,13 @@ class SampleRecords {
   /// Keeps a small picture and the record of a frame that is not the layer.
   void record_rejected(const JudgedFrame& frame);
 
-  /// Stores the layer durably, then commits its record. Gives the bytes of the file. When the image
-  /// could not be stored, the frame is recorded as `not_stored` and the error goes on.
+  /// All of storing a frame's layer that may be done before it is accepted. What goes wrong comes
+  /// out when it is published. Any thread may call it while the records are there.
+  reconstruct::PublishLayer prepare_layer(const JudgedFrame& frame) const;
+
+  /// Stores the layer durably, prepared or not, then commits its record. Gives the bytes of the
+  /// file. When the image could not be stored, the frame is recorded as `not_stored` and the error
+  /// goes on.
   std::uint64_t commit_layer(const JudgedFrame& frame);
 
   /// The time as records have it: ISO 8601, UTC.

@@ -29,12 +29,16 @@ JobBench::JobBench() {
                                       now.time_since_epoch()));
   };
   surroundings.free_bytes = [this](const auto&) { return free_bytes; };
-  surroundings.write_layer = [this](const std::filesystem::path& path, const cv::Mat& image,
-                                    const auto&, const auto&) {
+  surroundings.prepare_layer = [this](const std::filesystem::path& path, const cv::Mat& image,
+                                      const auto&, const auto&) -> reconstruct::PublishLayer {
     if (!store_failure.empty()) throw reconstruct::SampleError(store_failure);
-    std::ofstream(path) << image.cols << " x " << image.rows;
-    written.push_back(path.filename().string());
-    return reconstruct::StoredLayer{.bytes = std::filesystem::file_size(path), .sha256 = "abc"};
+    const auto held = std::make_shared<int>(++prepared);
+    last_prepared = held;
+    return [this, path, size = image.size(), held] {
+      std::ofstream(path) << size.width << " x " << size.height;
+      written.push_back(path.filename().string());
+      return reconstruct::StoredLayer{.bytes = std::filesystem::file_size(path), .sha256 = "abc"};
+    };
   };
   surroundings.open_volume = [this](const auto&, const auto&) {
     return [this](std::int64_t available, bool finish, const auto& progress) {

@@ -144,6 +144,21 @@ TEST(Job, ComesToRestWhenTheDaemonIsToldToEnd) {
   EXPECT_FALSE(bench.say(OperatorCommand::resume).accepted);
 }
 
+TEST(Job, PreparesALayerWhileItIsAssessedAndGivesUpThatOfARejectedFrame) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 1) bench.tick();
+  bench.camera.black_frames = 1;  // layer 2 needs no search: its first attempt
+  ASSERT_TRUE(bench.reach(JobState::assessing));
+  EXPECT_EQ(bench.prepared, 2);
+  ASSERT_TRUE(bench.reach(JobState::capturing));
+  EXPECT_TRUE(bench.last_prepared.expired());
+  EXPECT_EQ(bench.written.size(), 1U);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.prepared, 6);
+  EXPECT_EQ(bench.written.size(), 5U);
+}
+
 TEST(Job, ClimbsTheLadderUntilAFrameIsGood) {
   JobBench bench;
   bench.start_job();
