@@ -99,7 +99,21 @@ struct LayerJournal::State {
     database.exec("PRAGMA journal_mode = WAL");
     database.exec("PRAGMA synchronous = FULL");
     database.exec("PRAGMA foreign_keys = ON");
+    believe_only_the_disk();
     migrate_journal(database);
+  }
+
+  /// A journal that is opened may show commits that are not on the disk: those whose fsync failed
+  /// are still in the page cache, which takes them for written, and no later fsync writes them. So
+  /// all that the write-ahead log holds goes into the database anew, with an fsync of its own, and
+  /// the log is begun anew, as what follows a hole in it would be lost with the hole.
+  void believe_only_the_disk() {
+    SQLite::Statement checkpoint(database, "PRAGMA wal_checkpoint(TRUNCATE)");
+    checkpoint.executeStep();
+    if (checkpoint.getColumn(0).getInt() != 0) {
+      throw JournalError("the journal " + path.string() +
+                         " is read by another program all the time: stop it first");
+    }
   }
 
   void insert_attempt(const AttemptRow& attempt) {

@@ -39,6 +39,20 @@ struct LayerJournalTest : testing::Test {
   std::filesystem::path path = folder.path() / "journal.sqlite";
 };
 
+TEST_F(LayerJournalTest, WritesAnewWhatOnlyItsLogHolds) {
+  LayerJournal journal(path);
+  journal.commit_layer(attempt(1, 1, Verdict::accepted), 42, kAt);
+  const std::filesystem::path other = folder.path() / "other.sqlite";
+  std::filesystem::copy_file(path, other);
+  std::filesystem::copy_file(path.string() + "-wal", other.string() + "-wal");
+  {
+    const LayerJournal opened(other);
+    EXPECT_EQ(std::filesystem::file_size(other.string() + "-wal"), 0U);
+    std::filesystem::copy_file(other, folder.path() / "database-alone.sqlite");
+  }
+  EXPECT_EQ(LayerJournal(folder.path() / "database-alone.sqlite").summary().last_committed, 1);
+}
+
 TEST_F(LayerJournalTest, RemembersAcrossARestart) {
   {
     LayerJournal journal(path);
