@@ -90,6 +90,11 @@ void ChildProcess::send(int signal) const {
   kill(pid_, signal);
 }
 
+std::optional<Outcome> ChildProcess::end() {
+  if (!ended()) return std::nullopt;
+  return Outcome{*exit_code_, content_of(output_path_), content_of(error_path_)};
+}
+
 Outcome ChildProcess::wait(std::chrono::seconds limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   while (!ended()) {
@@ -98,7 +103,7 @@ Outcome ChildProcess::wait(std::chrono::seconds limit) {
     }
     std::this_thread::sleep_for(kPollInterval);
   }
-  return {*exit_code_, content_of(output_path_), content_of(error_path_)};
+  return *end();
 }
 
 bool ChildProcess::ended() {

@@ -34,6 +34,9 @@ class ChildProcess {
 
   pid_t pid() const { return pid_; }
 
+  /// How it ended; nothing while it runs.
+  std::optional<Outcome> end();
+
   /// Waits for the end. Throws std::runtime_error when time is up.
   Outcome wait(std::chrono::seconds limit);
 

@@ -114,6 +114,10 @@ Outcome SimulatedRig::await_daemon_end(seconds limit) {
   return end;
 }
 
+std::optional<Outcome> SimulatedRig::daemon_end() {
+  return daemon_->end();
+}
+
 Outcome SimulatedRig::rig(const std::string& command, seconds limit) {
   return run({BIOTOMY_TOOL, "rig", command, "--url", url_, "--token-file", folder() / "token"},
              folder(), limit);

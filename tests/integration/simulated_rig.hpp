@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ class SimulatedRig {
 
   /// Waits until the daemon has ended by itself. Throws std::runtime_error when time is up.
   Outcome await_daemon_end(std::chrono::seconds limit);
+
+  /// How the daemon ended by itself; nothing while it runs.
+  std::optional<Outcome> daemon_end();
 
   /// At the same address as before, with what it remembers.
   void start_twin();
