@@ -3,6 +3,7 @@
 // are not changed for it, and nobody needs to be root. The disk is one for a program and those that
 // it starts: they count their calls and bytes together.
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -16,6 +17,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -73,8 +75,10 @@ class FaultyDisk {
         call_(setting("BIOTOMY_FAULT_CALL")),
         error_(error_number(setting("BIOTOMY_FAULT_ERROR"))),
         first_(number("BIOTOMY_FAULT_AT")),
+        times_(number("BIOTOMY_FAULT_TIMES")),
         space_(number("BIOTOMY_FAULT_SPACE")),
-        most_bytes_(number("BIOTOMY_FAULT_MOST_BYTES")) {}
+        most_bytes_(number("BIOTOMY_FAULT_MOST_BYTES")),
+        healed_by_(setting("BIOTOMY_FAULT_HEALED_BY")) {}
 
   ~FaultyDisk() {
     const char* path = setting("BIOTOMY_FAULT_COUNTS");
@@ -102,7 +106,8 @@ class FaultyDisk {
   /// Counts the call; from the chosen one on it fails, with errno set.
   bool fails(Call call) {
     const std::int64_t count = ++counts_.calls[call];
-    const bool failing = first_ > 0 && call_ == kNames[call] && count >= first_;
+    const bool failing = first_ > 0 && call_ == kNames[call] && count >= first_ &&
+                         (times_ == 0 || count < first_ + times_) && !is_healed();
     if (failing) errno = error_;
     return failing;
   }
@@ -111,7 +116,7 @@ class FaultyDisk {
   ssize_t room_for(std::size_t bytes) {
     if (fails(kWrite)) return -1;
     auto room = static_cast<std::int64_t>(at_most(bytes));
-    if (space_ > 0) {
+    if (space_ > 0 && !is_healed()) {
       const std::int64_t before = counts_.written.fetch_add(room);
       room = before + room <= space_ ? room : space_ - before;
       if (room <= 0) {
@@ -122,18 +127,31 @@ class FaultyDisk {
     return room;
   }
 
+  bool is_full_disk() const { return space_ > 0 && !is_healed(); }
+
+  /// Bytes that can still be written; for a full disk only.
+  std::int64_t space_left() const {
+    return std::max<std::int64_t>(space_ - counts_.written.load(), 0);
+  }
+
   std::size_t at_most(std::size_t bytes) const {
     const auto most = static_cast<std::size_t>(most_bytes_);
     return most_bytes_ > 0 && bytes > most ? most : bytes;
   }
 
  private:
+  bool is_healed() const {
+    return !healed_by_.empty() && ::syscall(SYS_faccessat, AT_FDCWD, healed_by_.c_str(), F_OK) == 0;
+  }
+
   std::string folder_;
   std::string call_;
   int error_;
   std::int64_t first_;
+  std::int64_t times_;
   std::int64_t space_;
   std::int64_t most_bytes_;
+  std::string healed_by_;
   Counts& counts_ = shared_counts();
 };
 
@@ -184,6 +202,16 @@ ssize_t was_read(const char* name, int descriptor, void* bytes, std::size_t coun
 int synced(const char* name, int descriptor) {
   if (disk().holds(descriptor) && disk().fails(kSync)) return -1;
   return real<int(int)>(name)(descriptor);
+}
+
+template <typename Status>
+int asked_for_space(const char* name, const char* path, Status* status) {
+  const int result = real<int(const char*, Status*)>(name)(path, status);
+  if (result == 0 && disk().holds(path) && disk().is_full_disk()) {
+    status->f_bavail = static_cast<std::uint64_t>(disk().space_left()) / status->f_frsize;
+    status->f_bfree = status->f_bavail;
+  }
+  return result;
 }
 
 mode_t mode_of(int flags, va_list arguments) {
@@ -273,6 +301,12 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
   if (disk().holds(to) && disk().fails(kRename)) return -1;
   return real<int(int, const char*, int, const char*, unsigned int)>("renameat2")(
       from_folder, from, to_folder, to, flags);
+}
+int statvfs(const char* path, struct statvfs* status) {
+  return asked_for_space("statvfs", path, status);
+}
+int statvfs64(const char* path, struct statvfs64* status) {
+  return asked_for_space("statvfs64", path, status);
 }
 int mkdir(const char* path, mode_t mode) {
   if (disk().holds(path) && disk().fails(kMkdir)) return -1;
