@@ -31,6 +31,12 @@ bool is_layer_step(JobState state) {
   }
 }
 
+/// Whether the cause for which the job stopped by itself is still the reason to stand still.
+bool keeps_pause_cause(JobState from, JobState to) {
+  return to == JobState::pausing || to == JobState::withdrawing || to == JobState::held ||
+         (to == JobState::paused && from == JobState::pausing);
+}
+
 std::chrono::milliseconds limit_of(JobState state, const JobSettings& settings) {
   const SafetyLimits& limits = settings.limits;
   switch (state) {
@@ -233,9 +239,7 @@ void Job::go(JobEvent event, TimePoint now) {
 
 void Job::enter(JobState state, TimePoint now) {
   const JobState from = std::exchange(state_, state);
-  const bool rests = state == JobState::pausing || state == JobState::paused ||
-                     state == JobState::withdrawing || state == JobState::held;
-  if (!rests) pause_cause_.clear();
+  if (!keeps_pause_cause(from, state)) pause_cause_.clear();
   step_begin_ = now;
   step_command_begun_ = false;
   if (is_layer_step(state)) {
@@ -301,6 +305,7 @@ void Job::fault(const std::string& cause, TimePoint now) {
   log_error(kComponent, std::string("stopped while ") + to_string(state_) + ": " + cause);
   alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock())};
   note("alarm", cause);
+  pause_cause_.clear();
   state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
   start_up_latch_ = false;
   temperature_alarm_ = false;
@@ -321,6 +326,7 @@ void Job::fault(const std::string& cause, TimePoint now) {
 void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
   note("alarm", "held: " + cause);
+  pause_cause_ = cause;
   held_for_ = what;
   pause_cause_ = cause;
   try {

@@ -25,7 +25,7 @@ struct JobStatus {
   JobState state = JobState::faulted;
   std::string waiting_for;  ///< what the step waits for, in words
   bool pause_requested = false;
-  std::string pause_cause;  ///< why the job paused or is held; empty when an operator asked
+  std::string pause_cause;  ///< why the job paused, or is held, by itself; else empty
   std::string job;
   std::string sample;
   std::int64_t layers = 0;     ///< of the whole job

@@ -10,26 +10,15 @@ namespace {
 
 constexpr std::size_t kPaceLayers = 9;
 
+bool is_held(JobState state) {
+  return state == JobState::withdrawing || state == JobState::held;
+}
+
 /// States in which layers are expected to come one after the other.
 /// Where layers are made, or soon will be.
 bool is_running(JobState state) {
-  switch (state) {
-    case JobState::resetting:
-    case JobState::conditioning:
-    case JobState::pausing:
-    case JobState::withdrawing:
-    case JobState::held:
-    case JobState::finishing:
-    case JobState::aborting:
-      return false;
-    default:
-      return !is_at_rest(state);
-  }
-}
-
-/// The rig comes to rest, for a pause or until it is fit to go on by itself.
-bool is_coming_to_rest(JobState state) {
-  return state == JobState::pausing || state == JobState::withdrawing;
+  return !is_at_rest(state) && state != JobState::resetting && state != JobState::pausing &&
+         state != JobState::finishing && state != JobState::aborting && !is_held(state);
 }
 
 bool is_latched(JobState state) {
@@ -84,7 +73,9 @@ void RunWatch::watch_interruption(const JobStatus& status) {
     interruption_open_ = true;
     tell(NoticeKind::interrupted, false,
          "the daemon ended while the rig worked (" + *interrupted_ +
-             ") and was started again: look at the rig, then start the job");
+             ") and was started again: look at the rig, then start the job, if it has not gone on "
+             "by "
+             "itself");
   }
   if (interruption_open_ && is_running(status.state)) {
     interruption_open_ = false;
@@ -108,16 +99,18 @@ void RunWatch::watch_fault(const JobStatus& status) {
 }
 
 void RunWatch::watch_pause(const JobStatus& status) {
-  const bool pausing = is_coming_to_rest(status.state);
-  const bool begins = pausing && !is_coming_to_rest(state_);
+  const std::string cause = status.pause_cause.empty() ? "" : ": " + status.pause_cause;
   const bool asked = status.pause_requested || pause_requested_;
-  if (begins && !asked && !first_) {
+  if (is_held(status.state) && !is_held(state_)) {
     pause_open_ = true;
-    const std::string cause = status.pause_cause.empty() ? "" : ": " + status.pause_cause;
+    tell(NoticeKind::pause, false, "the job is held, and goes on by itself when it can" + cause);
+  } else if (status.state == JobState::pausing && state_ != JobState::pausing && !asked) {
+    pause_open_ = true;
     tell(NoticeKind::pause, false, "the job paused by itself" + cause);
   }
-  const bool rests = status.state == JobState::paused || status.state == JobState::held;
-  if (pause_open_ && !pausing && !rests) {
+  const bool stands = is_held(status.state) || status.state == JobState::pausing ||
+                      status.state == JobState::paused;
+  if (pause_open_ && !stands) {
     pause_open_ = false;
     // A fault, or an abort, tells its own story.
     if (is_running(status.state)) tell(NoticeKind::pause, true, "the job goes on after the pause");

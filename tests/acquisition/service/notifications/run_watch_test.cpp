@@ -128,6 +128,18 @@ TEST_F(RunWatchTest, DoesNotTellAPauseThatAnOperatorAskedFor) {
   EXPECT_THAT(kinds, IsEmpty());
 }
 
+TEST_F(RunWatchTest, TellsWhenAJobIsHeldAndWhenItGoesOn) {
+  start_run();
+  status.pause_cause = "the block is at -3.0 °C";
+  go(JobState::withdrawing);
+  EXPECT_THAT(text, HasSubstr("the block is at -3.0 °C"));
+  go(JobState::held);
+  now += minutes(600);
+  look();
+  go(JobState::preflight);
+  EXPECT_THAT(kinds, ElementsAre("pause", "pause over"));
+}
+
 TEST_F(RunWatchTest, DoesNotTakeTheWaitAfterAnAcknowledgementForAPause) {
   start_run();
   fault("the door is open (line)", "2026-11-26T21:00:00.000Z");
