@@ -140,10 +140,12 @@ ApiResponse Api::control(const std::string& name, const ApiRequest& request) con
   if (!ruling.granted) return refusal(ruling);
   const std::optional<std::string> reason = reason_of(request.body);
   if (!reason) {
+    parts_.desk.remark(name + " by " + ruling.who + " was not understood");
     return error_response(400, R"(the body must be empty or {"reason": "a few words"})");
   }
   std::future<OperatorReply> reply = parts_.desk.post(*command, *reason, ruling.who);
   if (reply.wait_for(reply_time_out_) != std::future_status::ready) {
+    log_warning("operator", name + " by " + ruling.who + " was not answered in time");
     return error_response(503,
                           "the rig's control did not answer in time; look at the status "
                           "before asking again");

@@ -176,6 +176,8 @@ TEST_F(ApiTest, TakesNoCommandItDoesNotUnderstand) {
   for (const char* body : {"abort", "[]", R"({"force": true})", R"({"reason": 1})"}) {
     EXPECT_EQ(post("/api/v1/control/abort", authorization, body).status, 400);
   }
+  EXPECT_THAT(desk.take_remarks(),
+              testing::Contains("abort by operator from 10.0.0.7 was not understood").Times(4));
   EXPECT_TRUE(desk.take().empty());
 }
 
