@@ -104,8 +104,10 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   findings.disk_left_layers = findings.records->disk_left_layers();
 
   check_clock_against(findings.journal.last_event_at, surroundings.wall_clock());
-  findings.records->record_event("recovery", to_string(JobState::preflight), 0,
-                                 "trial frame " + std::to_string(trial.sequence));
+  findings.records->record_event({.kind = "recovery",
+                                  .state = to_string(JobState::preflight),
+                                  .text = "trial frame " + std::to_string(trial.sequence),
+                                  .at = utc_text(surroundings.wall_clock())});
 
   const std::int64_t layers_to_do = settings.plan.layers - findings.journal.last_committed;
   const std::int64_t reserve = settings.limits.disk_reserve_layers;

@@ -145,7 +145,7 @@ class MadeUpRun {
   }
 
   void note(const char* kind, const char* text, const char* state = "preflight") {
-    journal_.record_event(kind, state, 1, text, now());
+    journal_.record_event({.kind = kind, .state = state, .layer = 1, .text = text, .at = now()});
   }
   void alarm(const char* state) { note("alarm", "made up", state); }
 
