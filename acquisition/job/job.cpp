@@ -328,7 +328,6 @@ void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   note("alarm", "held: " + cause);
   pause_cause_ = cause;
   held_for_ = what;
-  pause_cause_ = cause;
   try {
     go(JobEvent::hold, now);
   } catch (const std::exception& error) {

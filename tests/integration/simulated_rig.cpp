@@ -114,6 +114,11 @@ Outcome SimulatedRig::await_daemon_end(seconds limit) {
   return end;
 }
 
+Outcome SimulatedRig::end_daemon(seconds limit) {
+  send_daemon(SIGTERM);
+  return await_daemon_end(limit);
+}
+
 std::optional<Outcome> SimulatedRig::daemon_end() {
   return daemon_->end();
 }

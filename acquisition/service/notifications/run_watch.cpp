@@ -15,10 +15,10 @@ bool is_held(JobState state) {
 }
 
 /// States in which layers are expected to come one after the other.
-/// Where layers are made, or soon will be.
 bool is_running(JobState state) {
-  return !is_at_rest(state) && state != JobState::resetting && state != JobState::pausing &&
-         state != JobState::finishing && state != JobState::aborting && !is_held(state);
+  return !is_at_rest(state) && state != JobState::resetting && state != JobState::conditioning &&
+         state != JobState::pausing && state != JobState::finishing &&
+         state != JobState::aborting && !is_held(state);
 }
 
 bool is_latched(JobState state) {

@@ -106,17 +106,6 @@ TEST_F(RunWatchTest, TellsAPauseThatNobodyAskedFor) {
   EXPECT_THAT(kinds, ElementsAre("pause", "pause over"));
 }
 
-TEST_F(RunWatchTest, TellsThatAJobIsHeldAndThatItGoesOn) {
-  start_run();
-  status.pause_cause = "the block is at -2.0 °C";
-  go(JobState::withdrawing);
-  EXPECT_THAT(text, HasSubstr("the block is at -2.0 °C"));
-  go(JobState::held);
-  look();
-  go(JobState::preflight);
-  EXPECT_THAT(kinds, ElementsAre("pause", "pause over"));
-}
-
 TEST_F(RunWatchTest, DoesNotTellAPauseThatAnOperatorAskedFor) {
   start_run();
   status.pause_requested = true;
