@@ -107,18 +107,19 @@ void KilledRun::operate() {
 
 void KilledRun::act(const std::string& state, const std::string& alarm) {
   const bool just_started = alarm.find("the daemon has just started") != std::string::npos;
-  Outcome outcome;
+  Outcome
+      outcome;  // of nothing, where the daemon has not looked at the rig yet: another look helps
   if (state == "paused") {
     outcome = rig_.rig("resume");
   } else if (state == "idle" || just_started) {
     outcome = rig_.rig("start");
     const bool latched = outcome.errors.find("acknowledge it first") != std::string::npos;
     if (latched) outcome = rig_.rig("acknowledge");
-  } else if (state == "faulted") {
+  } else if (state == "faulted" && !alarm.empty()) {
     outcome = rig_.rig("acknowledge");
     if (outcome.exit_code == 0) alarms_.push_back(alarm);
   }
-  if (outcome.exit_code != 0) std::this_thread::sleep_for(kPollInterval);  // its cause still stands
+  if (outcome.exit_code != 0) std::this_thread::sleep_for(kPollInterval);
 }
 
 void KilledRun::finish() {
