@@ -144,6 +144,10 @@ std::vector<std::string> KilledRun::verdict(const std::filesystem::path& undistu
                                               undisturbed_sample);
   const Outcome verified = run({BIOTOMY_TOOL, "verify", rig_.sample()}, rig_.folder(), kPatience);
   if (verified.exit_code != 0) complaints.push_back(verified.output + verified.errors);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(rig_.sample())) {
+    const bool is_hidden = entry.path().filename().string().front() == '.';
+    if (is_hidden) complaints.push_back(entry.path().string() + " was left behind");
+  }
   return complaints;
 }
 

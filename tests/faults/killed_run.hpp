@@ -55,7 +55,8 @@ class KilledRun {
   /// The causes of the alarms that `go_on` acknowledged.
   const std::vector<std::string>& alarms() const { return alarms_; }
 
-  /// What was wrong with the run, by `judge` and by `biotomy verify`.
+  /// What was wrong with the run, by `judge`, by `biotomy verify`, and by hidden files that killed
+  /// daemons left in the sample.
   std::vector<std::string> verdict(const std::filesystem::path& undisturbed_sample);
 
  private:
