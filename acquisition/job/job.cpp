@@ -326,7 +326,6 @@ void Job::fault(const std::string& cause, TimePoint now) {
 void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
   note("alarm", "held: " + cause);
-  pause_cause_ = cause;
   held_for_ = what;
   try {
     go(JobEvent::hold, now);

@@ -14,11 +14,12 @@ bool is_held(JobState state) {
   return state == JobState::withdrawing || state == JobState::held;
 }
 
-/// States in which layers are expected to come one after the other.
+/// States in which layers are expected to come one after the other. How long it takes until the
+/// block is cold has nothing to do with their pace, and a limit of its own.
 bool is_running(JobState state) {
-  return !is_at_rest(state) && state != JobState::resetting && state != JobState::conditioning &&
-         state != JobState::pausing && state != JobState::finishing &&
-         state != JobState::aborting && !is_held(state);
+  return !is_at_rest(state) && state != JobState::resetting && state != JobState::pausing &&
+         state != JobState::finishing && state != JobState::aborting &&
+         state != JobState::conditioning && !is_held(state);
 }
 
 bool is_latched(JobState state) {

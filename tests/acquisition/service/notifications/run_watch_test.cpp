@@ -193,6 +193,20 @@ TEST_F(RunWatchTest, GivesARunWithoutAPaceItsOwnLimit) {
   EXPECT_THAT(kinds, ElementsAre("stalled"));
 }
 
+TEST_F(RunWatchTest, DoesNotTakeTheWaitForAColdBlockForAStall) {
+  limits.stall_factor = 2.0;
+  limits.stall_minimum = seconds(1);
+  start_run();
+  for (int i = 0; i < 3; ++i) store_layer_after(seconds(10));
+  go(JobState::conditioning);
+  now += minutes(600);
+  look();
+  go(JobState::grinding);
+  now += seconds(15);
+  look();
+  EXPECT_THAT(kinds, IsEmpty());
+}
+
 TEST_F(RunWatchTest, DoesNotTakeAPauseForAStall) {
   limits.stall_factor = 2.0;
   limits.stall_minimum = seconds(1);
