@@ -63,9 +63,9 @@ void RigServer::serve(bridge::RigConnection connection, const std::stop_token& s
         const bridge::RigMessage request = bridge::from_json(packet.text);
         answer = handler == nullptr ? answer_first(request, handler) : handler->answer(request);
       } catch (const bridge::MessageError& error) {
-        answer.emplace(bridge::ErrorMessage{error.what()});
+        answer = bridge::RigAnswer{bridge::ErrorMessage{error.what()}, {}};
       } catch (const bridge::RigRefusal& refusal) {
-        answer.emplace(bridge::ErrorMessage{refusal.what()});
+        answer = bridge::RigAnswer{bridge::ErrorMessage{refusal.what()}, {}};
       }
       if (answer && !device_is_gone()) {
         connection.send(bridge::to_json(answer->message), kSendingTimeOut,
