@@ -192,5 +192,14 @@ TEST_F(CommandLine, TheTwinRefusesAnUnknownKeyAndNamesTheNearest) {
   expect_one_line(run({BIOTOMY_TWIN, "--config", config}, folder_.path()), kUsage, "time_scale");
 }
 
+TEST_F(CommandLine, TheTwinRefusesAScenarioThatItDoesNotUnderstand) {
+  const fs::path config = folder_.path() / "sim.toml";
+  const fs::path scenario = folder_.path() / "scenario.toml";
+  std::ofstream(config) << "[stage]\nregister_map = \"r\"\n[rig]\nsocket = \"unix://s\"\n";
+  std::ofstream(scenario) << "about = \"a test\"\n[events.x]\nfault = \"dor_open\"\n";
+  expect_one_line(run({BIOTOMY_TWIN, "--config", config, "--scenario", scenario}, folder_.path()),
+                  kUsage, "door_open");
+}
+
 }  // namespace
 }  // namespace biotomy::tests

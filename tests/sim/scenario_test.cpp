@@ -1,8 +1,6 @@
 #include "sim/scenario/scenario.hpp"
 
-#include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -24,13 +22,6 @@ std::string refusal(const std::string& text) {
     return error.what();
   }
   return "";
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 TEST(Scenario, SaysWhatBreaksWhenAndForHowLong) {
@@ -108,23 +99,12 @@ TEST(Scenario, ParsesOneEventForTheBench) {
 }
 
 TEST(Scenario, ListsItsFaultsInTheReadme) {
-  EXPECT_NE(text_of(BIOTOMY_ROOT "/sim/README.md").find(fault_reference()), std::string::npos)
+  std::ifstream file(BIOTOMY_ROOT "/sim/README.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find(fault_reference()), std::string::npos)
       << "put this table into sim/README.md:\n"
       << fault_reference();
-}
-
-TEST(ScenarioLibrary, LoadsWholeIsExplainedAndBreaksEverythingOnce) {
-  const std::filesystem::path folder = BIOTOMY_ROOT "/sim/scenarios";
-  const std::string readme = text_of(folder / "README.md");
-  std::set<std::string> broken;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::filesystem::path& file = entry.path();
-    if (file.extension() != ".toml") continue;
-    const Scenario scenario = read_scenario(bridge::CheckedTable::read_file(file));
-    for (const ScenarioEvent& event : scenario.events) broken.insert(name_of(event.fault));
-    EXPECT_NE(readme.find("`" + file.filename().string() + "`"), std::string::npos) << file;
-  }
-  EXPECT_EQ(broken.size(), std::variant_size_v<RigFault>);
 }
 
 }  // namespace
