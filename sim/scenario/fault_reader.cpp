@@ -60,6 +60,14 @@ void read_parameters(const CheckedTable& event, LampFlickers& fault) {
   fault.frequency_hz = number(event, "frequency", fault.frequency_hz, "Hz", 0.001, 1000, "of it");
 }
 
+void read_parameters(const CheckedTable& event, CameraGivesOldFrame& fault) {
+  fault.under_old_number =
+      event.get(TextKey{.name = "number",
+                        .fallback = "new",
+                        .choices = {"new", "old"},
+                        .description = "and time under which it comes"}) == "old";
+}
+
 void read_parameters(const CheckedTable& event, CameraTearsFrame& fault) {
   fault.share = number(event, "share", fault.share, "", 0, 1, "of the rows that are new");
 }

@@ -36,7 +36,10 @@ struct Effect {
 
   void operator()(const CameraHangs&) const { condition.camera.hangs = true; }
   void operator()(const CameraVanishes&) const { condition.camera.vanished = true; }
-  void operator()(const CameraGivesOldFrame&) const { condition.camera.gives_old_frame = true; }
+  void operator()(const CameraGivesOldFrame& fault) const {
+    condition.camera.gives_old_frame = true;
+    condition.camera.gives_old_number = fault.under_old_number;
+  }
   void operator()(const CameraTearsFrame& fault) const { condition.camera.torn_at = fault.share; }
   void operator()(const CameraGivesBlackFrame&) const { condition.camera.gives_black_frame = true; }
   void operator()(const CameraGivesWrongSize& fault) const {

@@ -13,6 +13,7 @@ struct CameraCondition {
   bool hangs = false;
   bool vanished = false;
   bool gives_old_frame = false;
+  bool gives_old_number = false;    ///< with it
   std::optional<double> torn_at{};  ///< share of the rows that are new
   bool gives_black_frame = false;
   struct Size {

@@ -48,8 +48,8 @@ struct CameraVanishes {
 };
 struct CameraGivesOldFrame {
   static constexpr const char* kName = "camera_old_frame";
-  static constexpr const char* kMeaning =
-      "the last photograph from before comes once more, under a new number";
+  static constexpr const char* kMeaning = "the last photograph from before comes once more";
+  bool under_old_number = false;
 };
 struct CameraTearsFrame {
   static constexpr const char* kName = "camera_torn_frame";

@@ -134,16 +134,19 @@ bridge::RigAnswer CameraService::photograph(const CameraCondition& condition) {
     image = spoilt(image, condition);
   } else {
     last_ = image;
+    last_number_ = photograph.number;
+    last_taken_ = began;
   }
+  const bool old_number = condition.gives_old_number && !last_.empty();
   bridge::FrameMessage frame;
   frame.width = image.cols;
   frame.height = image.rows;
   frame.stride = static_cast<int>(image.elemSize()) * image.cols;
   frame.format =
       image.depth() == CV_16U ? bridge::RigPixelFormat::rgb161616 : bridge::RigPixelFormat::rgb888;
-  frame.sequence = photograph.number;
+  frame.sequence = old_number ? last_number_ : photograph.number;
   frame.timestamp_ns =
-      std::chrono::duration_cast<std::chrono::nanoseconds>(began.time_since_epoch()).count();
+      std::chrono::nanoseconds((old_number ? last_taken_ : began).time_since_epoch()).count();
   frame.exposure_us = exposure_.exposure_us;
   frame.gain = exposure_.gain;
   return {frame, shared(image)};

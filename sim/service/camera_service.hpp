@@ -47,6 +47,8 @@ class CameraService final : public RigServiceHandler {
   Camera camera_;
   ExposureSettings exposure_;
   cv::Mat last_;  ///< the last photograph that was given as it was
+  std::uint64_t last_number_ = 0;
+  std::chrono::steady_clock::time_point last_taken_{};
 };
 
 }  // namespace biotomy::sim

@@ -47,6 +47,11 @@ Rig::Rig(const RigSettings& settings, StateFile state_file, WitnessLog& witness,
     mechanics_.restore(state->machine);
     block_before_ = mechanics_.block();
     controller_.restore(state->memory);
+  } else {
+    // A rig is delivered with its axes at home.
+    mechanics_.restore({.block = mechanics_.block().state(),
+                        .feed_um = settings.controller.feed_minimum_um,
+                        .column_um = settings.controller.column_minimum_um});
   }
   write_state();
   witness_.twin_started(rig_s_, settings_.seed, controller_.memory(), mechanics_.block());

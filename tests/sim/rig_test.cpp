@@ -264,6 +264,17 @@ TEST(Rig, ShowsAScaleThatIsWrongAndTheTruthToTheCamera) {
   EXPECT_EQ(rig.rig.scene().column_um, 5000);
 }
 
+TEST(Rig, BeginsWithinItsLimits) {
+  Workshop shop;
+  shop.settings.controller.feed_minimum_um = 500;
+  shop.settings.controller.column_minimum_um = -300;
+  RunningRig rig(shop);
+  rig.run(1s);
+  EXPECT_EQ(rig.rig.read().status.state, ControllerState::idle);
+  EXPECT_EQ(rig.rig.read().feed_um, 500);
+  EXPECT_EQ(rig.rig.read().column_um, -300);
+}
+
 TEST(Rig, ScalesItsTimeButNotTheWatchdog) {
   Workshop shop;
   RunningRig rig(shop);

@@ -232,6 +232,11 @@ TEST_F(TwinTest, GivesOldTornBlackAndMissizedFrames) {
   EXPECT_EQ(old_bytes, bytes);
   EXPECT_GT(old_frame.sequence, frame.sequence);
 
+  const auto [older_frame, older_bytes] = with("camera_old_frame", "number = \"old\"");
+  EXPECT_EQ(older_bytes, bytes);
+  EXPECT_EQ(older_frame.sequence, frame.sequence);
+  EXPECT_EQ(older_frame.timestamp_ns, frame.timestamp_ns);
+
   const auto [torn_frame, torn_bytes] = with("camera_torn_frame");
   const auto half = static_cast<std::ptrdiff_t>(bytes.size() / 2);
   EXPECT_FALSE(std::equal(bytes.begin(), bytes.begin() + half, torn_bytes.begin()));
