@@ -55,8 +55,8 @@ struct StageIdentity {
 };
 
 /// One consistent reading of the controller. Sequence numbers are the proof of what was done: a
-/// command is executed once for each new number, and the controller echoes the number it started
-/// and the number it finished.
+/// command is executed once, for a number beyond all before it, and the controller echoes the
+/// number it started and the number it finished.
 struct StageStatus {
   ControllerState state = ControllerState::booting;
   std::uint16_t fault_code = 0;

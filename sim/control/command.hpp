@@ -27,7 +27,7 @@ struct Command {
 /// What becomes of a command at the moment it is written.
 enum class Acceptance {
   taken,     ///< started, and perhaps finished already: the registers tell
-  repeated,  ///< its number is that of the last command that was started: nothing happens
+  repeated,  ///< its number is not beyond that of the last command: nothing happens
   busy,      ///< another one is running: not started, the number is not used up
 };
 

@@ -27,7 +27,7 @@ Controller::Controller(const ControllerSettings& settings, Mechanics& mechanics,
       boot_left_s_(settings.boot_seconds) {}
 
 Acceptance Controller::submit(const Command& command) {
-  if (command.sequence == memory_.sequence_started) {
+  if (command.sequence <= memory_.sequence_started) {
     return Acceptance::repeated;
   }
   const auto action = static_cast<Action>(command.action);

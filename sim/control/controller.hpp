@@ -63,8 +63,9 @@ struct ControllerEvents {
 
 /// The rig's PLC: it turns commands into targets of the mechanics, one at a time, each number once,
 /// and watches the interlocks and its master. The rules:
-/// - a command starts only under a number that is not the last one started; while one runs, only
-///   `stop` is taken (the running one is then `aborted`);
+/// - a command starts only under a number beyond the last one started, so that a message that comes
+///   late or twice starts nothing; while one runs, only `stop` is taken (the running one is then
+///   `aborted`);
 /// - refused: an unknown command, a target outside the limits, grinding or moving the column before
 ///   `home`, everything but `stop` and `reset_fault` while faulted;
 /// - e-stop, open door and a silent master lead to `faulted`: spindle and air off, wheel up, axes

@@ -72,6 +72,18 @@ TEST(Controller, DoesNothingForANumberThatItKnows) {
   EXPECT_EQ(bench.mechanics.block().deepest_um(), 1000);
 }
 
+TEST(Controller, DoesNothingForACommandThatComesLate) {
+  Bench bench;
+  bench.complete(Action::home);
+  bench.complete(Action::grind_pass, 1000);
+  const Command late{bench.sequence, static_cast<std::uint16_t>(Action::grind_pass), 1000, 0, 3000};
+  bench.complete(Action::retract);
+  EXPECT_EQ(bench.controller.submit(late), Acceptance::repeated);
+  bench.run(30s);
+  EXPECT_EQ(bench.controller.memory().grind_count, 1U);
+  EXPECT_EQ(bench.controller.status().state, ControllerState::idle);
+}
+
 TEST(Controller, GrindsToTheTargetAndCountsIt) {
   Bench bench;
   bench.complete(Action::home);
