@@ -79,9 +79,10 @@ std::string ModbusLink::named(const std::string& what) const {
 
 void ModbusLink::read(RegisterTable table, int address, std::span<std::uint16_t> registers) {
   const int count = static_cast<int>(registers.size());
-  const auto function =
-      table == RegisterTable::input ? modbus_read_input_registers : modbus_read_registers;
-  ask(describe_block("reading", to_string(table), address, registers.size()), count, true,
+  const bool is_input = table == RegisterTable::input;
+  const auto function = is_input ? modbus_read_input_registers : modbus_read_registers;
+  ask(describe_block("reading", to_string(table), address, registers.size()),
+      {is_input ? MODBUS_FC_READ_INPUT_REGISTERS : MODBUS_FC_READ_HOLDING_REGISTERS, count},
       [&](ModbusConnection& connection) {
         return function(connection.context(), address, count, registers.data());
       });
@@ -89,22 +90,24 @@ void ModbusLink::read(RegisterTable table, int address, std::span<std::uint16_t>
 
 void ModbusLink::write(int address, std::span<const std::uint16_t> registers) {
   const int count = static_cast<int>(registers.size());
-  ask(describe_block("writing", "holding", address, registers.size()), count, false,
-      [&](ModbusConnection& connection) {
+  ask(describe_block("writing", "holding", address, registers.size()),
+      {MODBUS_FC_WRITE_MULTIPLE_REGISTERS, count}, [&](ModbusConnection& connection) {
         return modbus_write_registers(connection.context(), address, count, registers.data());
       });
 }
 
-void ModbusLink::ask(const std::string& request, int count, bool is_read, const Send& send) {
+void ModbusLink::ask(const std::string& request, Shape shape, const Send& send) {
+  const bool is_read = shape.function != MODBUS_FC_WRITE_MULTIPLE_REGISTERS;
   for (int tries_left = settings_.read_retries;; --tries_left) {
     // Getting ready does nothing that could be done twice: what fails in it may be tried again.
-    std::optional<Failure> failure = get_ready();
+    std::optional<Failure> failure = get_ready(shape);
     bool may_repeat = true;
     if (!failure) {
-      failure = ask_once(count, send);
+      failure = ask_once(shape.count, send);
       may_repeat = is_read || (failure && failure->answer == Answer::malformed_request);
     }
     if (!failure) {
+      last_ = shape;
       failures_ = 0;
       back_off_ = std::chrono::milliseconds(0);
       return;
@@ -151,7 +154,7 @@ ModbusLink::Answer ModbusLink::answer_of(int error) {
   }
 }
 
-std::optional<ModbusLink::Failure> ModbusLink::get_ready() {
+std::optional<ModbusLink::Failure> ModbusLink::get_ready(Shape next) {
   const bool is_tcp = endpoint_.scheme == Scheme::tcp;
   // A second copy of an answer, or the other side's farewell: this connection is no good, and
   // nothing has been sent yet.
@@ -164,7 +167,8 @@ std::optional<ModbusLink::Failure> ModbusLink::get_ready() {
   }
   if (is_tcp) return std::nullopt;
   const std::chrono::microseconds gap = settings_.serial.silence_between_frames();
-  if (in_step_ && connection_->has_unasked_bytes()) in_step_ = false;
+  // A second copy of the last answer that is still on its way would do for the next one, too.
+  if (last_ == next || connection_->has_unasked_bytes()) in_step_ = false;
   if (in_step_) in_step_ = connection_->wait_for_silence(gap, gap);
   return in_step_ ? std::nullopt : get_in_step();
 }
@@ -189,6 +193,7 @@ std::optional<ModbusLink::Failure> ModbusLink::get_in_step() {
   if (failure) return failure;
   if (echo != token) return Failure{Answer::doubtful, EMBBADDATA};
   in_step_ = true;
+  last_.reset();
   return std::nullopt;
 }
 

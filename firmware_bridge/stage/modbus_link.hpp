@@ -50,9 +50,9 @@ struct ModbusLinkSettings {
 ///
 /// A late answer is never taken for another question's. Over TCP each answer carries the number of
 /// its question, and after any doubt the connection is closed. A serial line has no such number:
-/// after any doubt, and after opening, late bytes are waited out and thrown away, then a new number
-/// is written to the echo register and read back; only when it comes back is an answer believed
-/// again.
+/// after any doubt, after opening, and between two questions whose answers look alike, late bytes
+/// are waited out and thrown away, then a new number is written to the echo register and read back;
+/// only when it comes back is an answer believed again.
 class ModbusLink final : public RegisterBus {
  public:
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
@@ -73,13 +73,19 @@ class ModbusLink final : public RegisterBus {
     Answer answer;
     int error;
   };
+  /// What tells the answers to two questions apart on a serial line.
+  struct Shape {
+    int function;
+    int count;  ///< of registers
+    friend bool operator==(const Shape&, const Shape&) = default;
+  };
   /// Sends one request and takes its answer: how many registers it was about, or -1 and errno.
   using Send = std::function<int(ModbusConnection&)>;
 
   static Answer answer_of(int error);
-  void ask(const std::string& request, int count, bool is_read, const Send& send);
+  void ask(const std::string& request, Shape shape, const Send& send);
   std::optional<Failure> ask_once(int count, const Send& send);
-  std::optional<Failure> get_ready();
+  std::optional<Failure> get_ready(Shape next);
   std::optional<Failure> get_in_step();
   void connect();
   void note_failure(Answer answer);
@@ -92,6 +98,7 @@ class ModbusLink final : public RegisterBus {
   std::optional<TcpAddresses> addresses_;
   std::unique_ptr<ModbusConnection> connection_;
   bool in_step_ = false;
+  std::optional<Shape> last_;  ///< the question that was answered last
   std::uint16_t token_;
   int failures_ = 0;  ///< calls in a row that ended without an answer
   std::chrono::steady_clock::time_point not_before_;

@@ -67,18 +67,26 @@ TEST_F(ModbusSerialLinkTest, GetsInStepOnceAndThenAsksNoMoreThanItMust) {
   read(0);
   EXPECT_EQ(slave_.requests, kStepping + 1);
   EXPECT_NE(slave_.holding[kEchoAddress], 0);
-  read(0);
   write(5, 1);
+  read(0);
   EXPECT_EQ(slave_.requests, kStepping + 3);
+}
+
+TEST_F(ModbusSerialLinkTest, GetsInStepBetweenTwoQuestionsWhoseAnswersLookAlike) {
+  open();
+  read(0);
+  read(1);
+  EXPECT_EQ(slave_.requests, 2 * (kStepping + 1));
 }
 
 TEST_F(ModbusSerialLinkTest, ReadsAgainWhenTheAnswerWasDamaged) {
   open();
   read(0);
   slave_.input[0] = 77;
+  write(5, 1);
   slave_.damaged_answers = 1;
   EXPECT_EQ(read(0), 77);
-  EXPECT_EQ(slave_.requests, 2 * (kStepping + 1) + 1);
+  EXPECT_EQ(slave_.requests, 2 * (kStepping + 1) + 2);
 }
 
 TEST_F(ModbusSerialLinkTest, NeverTakesALateAnswerForAnother) {
@@ -119,7 +127,7 @@ TEST_F(ModbusSerialLinkTest, NeverTriesAWriteAgain) {
 
 TEST_F(ModbusSerialLinkTest, BelievesARefusalOnlyWhenItComesTwice) {
   open();
-  read(0);
+  write(5, 1);
   slave_.exception_answers = 1;
   EXPECT_NO_THROW(read(0));
   slave_.exception_answers = 1;
