@@ -17,11 +17,14 @@ namespace {
 using ::testing::HasSubstr;
 using Kind = DeviceError::Kind;
 
+/// Micrometres: what a position of 150 mm loses in a float of millimetres.
+constexpr double kFloat = 0.01;
+
 /// A controller as two arrays of registers that notes its requests.
 struct FakeBus final : RegisterBus {
   struct State {
-    std::vector<std::uint16_t> input = std::vector<std::uint16_t>(46);
-    std::vector<std::uint16_t> holding = std::vector<std::uint16_t>(9);
+    std::vector<std::uint16_t> input = std::vector<std::uint16_t>(1100);
+    std::vector<std::uint16_t> holding = std::vector<std::uint16_t>(100);
     std::vector<std::string> requests;
     bool write_times_out = false;
   };
@@ -56,11 +59,11 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(at, what.size(), by);
 }
 
-class ModbusStageTest : public ::testing::Test {
+class ModbusStageBench : public ::testing::Test {
  protected:
-  ModbusStageTest() {
+  explicit ModbusStageBench(const std::string& map) : map_(RegisterMap::read_file(map)) {
     put("map_magic", 0xB107);
-    put("map_version", 2);
+    put("map_version", map_.version());
     put("controller_state", 1);
   }
 
@@ -80,10 +83,34 @@ class ModbusStageTest : public ::testing::Test {
     });
   }
 
-  RegisterMap map_ = RegisterMap::read_file(BIOTOMY_REGISTER_MAP);
+  RegisterMap map_;
   FakeBus::State state_;
   ModbusStage stage_{map_, std::make_unique<FakeBus>(state_)};
 };
+
+/// What holds for the reference controller alone.
+class ModbusStageTest : public ModbusStageBench {
+ protected:
+  ModbusStageTest() : ModbusStageBench(BIOTOMY_REGISTER_MAP) {}
+};
+
+/// What holds for any controller: another one is another file.
+class ModbusStageOfAnyMap : public ModbusStageBench,
+                            public ::testing::WithParamInterface<const char*> {
+ protected:
+  ModbusStageOfAnyMap() : ModbusStageBench(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, ModbusStageOfAnyMap,
+                         ::testing::Values(BIOTOMY_REGISTER_MAP, BIOTOMY_OTHER_REGISTER_MAP),
+                         [](const auto& map) {
+                           return map.index == 0 ? "TheReference" : "AnotherController";
+                         });
+
+TEST_F(ModbusStageTest, IssuesACommandFromItsFirstRegisterToItsSequence) {
+  stage_.issue(1, {.action = StageAction::home});
+  EXPECT_THAT(state_.requests, ::testing::ElementsAre("write 1 7"));
+}
 
 TEST_F(ModbusStageTest, ExchangesInOneWriteAndOneRead) {
   stage_.exchange(77);
@@ -91,7 +118,7 @@ TEST_F(ModbusStageTest, ExchangesInOneWriteAndOneRead) {
   EXPECT_EQ(written("daemon_heartbeat"), 77);
 }
 
-TEST_F(ModbusStageTest, ReportsTheStatusInItsUnits) {
+TEST_P(ModbusStageOfAnyMap, ReportsTheStatusInItsUnits) {
   put("controller_state", 3);
   put("fault_code", 2);
   put("interlocks", 0b1010);
@@ -115,68 +142,68 @@ TEST_F(ModbusStageTest, ReportsTheStatusInItsUnits) {
   EXPECT_EQ(status.last_result, CommandResult::refused);
   EXPECT_EQ(status.sequence_started, 4000000000U);
   EXPECT_EQ(status.grind_count, 12U);
-  EXPECT_EQ(status.feed.value, -1234.5);
-  EXPECT_EQ(status.feed_target.value, -1200);
-  EXPECT_EQ(status.traverse_target.value, 150000.5);
-  EXPECT_EQ(status.column_target.value, 33.3);
-  EXPECT_EQ(status.ground_to.value, 900.1);
+  EXPECT_NEAR(status.feed.value, -1234.5, kFloat);
+  EXPECT_NEAR(status.feed_target.value, -1200, kFloat);
+  EXPECT_NEAR(status.traverse_target.value, 150000.5, kFloat);
+  EXPECT_NEAR(status.column_target.value, 33.3, kFloat);
+  EXPECT_NEAR(status.ground_to.value, 900.1, kFloat);
   EXPECT_EQ(status.block_temperature_c, -40.25);
   EXPECT_FALSE(status.coolant_on);
   EXPECT_TRUE(status.air_on);
 }
 
-TEST_F(ModbusStageTest, RefusesACodeThatItDoesNotKnow) {
+TEST_P(ModbusStageOfAnyMap, RefusesACodeThatItDoesNotKnow) {
   put("controller_state", 9);
   EXPECT_THROW(stage_.exchange(1), DeviceError);
 }
 
-TEST_F(ModbusStageTest, IssuesAWholeCommandInOneWrite) {
+TEST_P(ModbusStageOfAnyMap, IssuesAWholeCommandInOneWrite) {
   stage_.issue(70000, {.action = StageAction::grind_pass,
                        .position = {1250.3},
                        .duration = std::chrono::milliseconds(0),
                        .spindle_rpm = 3000});
-  EXPECT_THAT(state_.requests, ::testing::ElementsAre("write 1 7"));
+  ASSERT_EQ(state_.requests.size(), 1U);
   EXPECT_EQ(written("command"), 2);
-  EXPECT_EQ(written("argument_position"), 1250.3);
+  EXPECT_NEAR(written("argument_position"), 1250.3, kFloat);
   EXPECT_EQ(written("argument_spindle"), 3000);
   EXPECT_EQ(written("sequence"), 70000);
 }
 
-TEST_F(ModbusStageTest, NeverRepeatsACommandThatTimedOut) {
+TEST_P(ModbusStageOfAnyMap, NeverRepeatsACommandThatTimedOut) {
   state_.write_times_out = true;
   EXPECT_THROW(stage_.issue(1, {.action = StageAction::home}), DeviceError);
   EXPECT_EQ(state_.requests.size(), 1U);
 }
 
-TEST_F(ModbusStageTest, SendsNothingForATargetThatDoesNotFit) {
-  for (const double position : {1e9, std::numeric_limits<double>::quiet_NaN()}) {
+TEST_P(ModbusStageOfAnyMap, SendsNothingForATargetThatDoesNotFit) {
+  for (const double position : {1e44, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(stage_.issue(1, {.action = StageAction::grind_pass, .position = {position}}),
                  DeviceError);
   }
   EXPECT_TRUE(state_.requests.empty());
 }
 
-TEST_F(ModbusStageTest, IdentifiesTheController) {
+TEST_P(ModbusStageOfAnyMap, IdentifiesTheController) {
   put("watchdog_timeout", 1500);
   put("feed_maximum", 50000);
   put("traverse_minimum", -10);
   put("traverse_maximum", 160000);
   const StageIdentity identity = stage_.identify();
-  EXPECT_EQ(identity.map_version, 2);
+  EXPECT_EQ(identity.map_version, map_.version());
   EXPECT_EQ(identity.watchdog_timeout, std::chrono::milliseconds(1500));
   EXPECT_EQ(identity.feed.maximum.value, 50000);
-  EXPECT_EQ(identity.traverse.minimum.value, -10);
+  EXPECT_NEAR(identity.traverse.minimum.value, -10, kFloat);
   EXPECT_EQ(identity.traverse.maximum.value, 160000);
 }
 
-TEST_F(ModbusStageTest, RefusesAControllerWithOtherRegisters) {
+TEST_P(ModbusStageOfAnyMap, RefusesAControllerWithOtherRegisters) {
   put("map_magic", 1);
   EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
               HasSubstr("map_magic is 1, expected 45319"));
   put("map_magic", 0xB107);
-  put("map_version", 3);
+  put("map_version", map_.version() + 1);
   EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
-              HasSubstr("has version 3 of the register map"));
+              HasSubstr("has version " + std::to_string(map_.version() + 1)));
 }
 
 TEST_F(ModbusStageTest, RefusesAMapThatLacksAName) {
