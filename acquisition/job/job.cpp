@@ -399,7 +399,8 @@ std::string Job::waiting_for() const {
   if (is_layer_step(state_)) return cycle_->waiting_for(state_);
   switch (state_) {
     case JobState::preflight:
-      return "waits for the camera, the sample and the disk";
+      return identity_ ? "waits for the camera, the sample and the disk"
+                       : "waits for the controller to say what it is";
     case JobState::recovering:
       return "waits for the controller to be idle";
     case JobState::homing:

@@ -85,6 +85,7 @@ class Job {
   std::optional<JobEvent> poll_finishing(TimePoint now);
   std::optional<JobEvent> poll_resetting(TimePoint now);
   void begin_preflight();
+  void begin_inspection();
   void begin_resetting(TimePoint now);
 
   /// Takes the transition, which the table must allow, and begins the step it leads to.
@@ -142,7 +143,7 @@ class Job {
   TimePoint fault_park_until_{};
 
   std::future<PreflightFindings> inspection_;
-  bridge::StageIdentity identity_;
+  std::optional<bridge::StageIdentity> identity_;  ///< once the preflight has asked
   PreflightFindings findings_;
   Conditioning conditioning_;
   HeldFor held_for_ = HeldFor::temperature;

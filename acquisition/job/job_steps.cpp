@@ -5,6 +5,7 @@
 
 #include "acquisition/job/job.hpp"
 #include "acquisition/log.hpp"
+#include "firmware_bridge/device_error.hpp"
 
 namespace biotomy::acquisition {
 
@@ -16,13 +17,28 @@ void Job::begin_preflight() {
   continuation_.reset();
   run_began_.reset();
   cycle_.reset();
-  identity_ = parts_.stage.identify();
-  if (const auto complaint = stage_complaint(settings_, identity_)) throw StepFailure(*complaint);
+  identity_.reset();
   // The records of an earlier run are closed, after all they still write, before they are opened
   // anew: one journal has one writer.
   feed_.reset();
   keeper_.reset();
   findings_ = {};
+  inspection_ = {};
+  begin_inspection();
+}
+
+/// Once the controller has said what it is and fits; a line that lost the question or the answer is
+/// no reason to stop, and is asked again at the next tick.
+void Job::begin_inspection() {
+  try {
+    identity_ = parts_.stage.identify();
+  } catch (const bridge::DeviceError& error) {
+    const bool may_answer_yet = error.kind() == bridge::DeviceError::Kind::timeout ||
+                                error.kind() == bridge::DeviceError::Kind::disconnected;
+    if (!may_answer_yet) throw;
+    return;
+  }
+  if (const auto complaint = stage_complaint(settings_, *identity_)) throw StepFailure(*complaint);
   inspection_ = run_on(
       parts_.worker, [settings = settings_, camera = &parts_.camera, surroundings = surroundings_] {
         return inspect(settings, *camera, surroundings);
@@ -30,7 +46,8 @@ void Job::begin_preflight() {
 }
 
 std::optional<JobEvent> Job::poll_preflight() {
-  if (!is_ready(inspection_)) return std::nullopt;
+  if (!identity_) begin_inspection();
+  if (!identity_ || !is_ready(inspection_)) return std::nullopt;
   findings_ = inspection_.get();
   commands_.raise_to(std::max(
       {findings_.journal.last_sequence, fresh_->sequence_started, fresh_->sequence_finished}));
@@ -67,7 +84,7 @@ std::optional<JobEvent> Job::poll_recovering() {
   cycle_ = std::make_unique<LayerCycle>(
       settings_,
       CycleParts{commands_, parts_.lines, parts_.camera, parts_.worker, *keeper_, *feed_},
-      CycleStart{findings_.journal, identity_.column, findings_.camera,
+      CycleStart{findings_.journal, identity_->column, findings_.camera,
                  findings_.disk_left_layers});
   return JobEvent::agreed;
 }

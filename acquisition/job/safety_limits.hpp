@@ -37,7 +37,7 @@ struct SafetyLimits {
 
   std::chrono::milliseconds command_start{2000};  ///< from handing over to `sequence_started`
   std::chrono::milliseconds read_back{500};  ///< watched before a command counts as not received
-  int command_issues = 3;                    ///< a command is handed over so often at most
+  int command_issues = 10;                   ///< a command is handed over so often at most
 
   std::chrono::milliseconds preflight_limit{60000};
   std::chrono::milliseconds recovery_limit{60000};

@@ -82,7 +82,7 @@ SafetyLimits read_safety(const CheckedTable& table) {
       duration(table, "read_back_ms", safety.read_back,
                "so long the command number is read back before an unanswered command counts as "
                "not received");
-  safety.command_issues = count(table, "command_issues", safety.command_issues, 1, 10,
+  safety.command_issues = count(table, "command_issues", safety.command_issues, 1, 100,
                                 "a command is handed over so often at most");
   safety.preflight_limit =
       duration(table, "preflight_limit_ms", safety.preflight_limit, "limit of the step");

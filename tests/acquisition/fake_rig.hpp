@@ -26,6 +26,7 @@ struct FakeStage : bridge::Stage {
   bridge::StageStatus status{};
   int exchanges_per_command = 2;
 
+  int unanswered_identities = 0;        ///< so many times it does not say what it is
   bool silent = false;                  ///< no exchange and no command succeeds
   bool heart_stopped = false;           ///< controller_heartbeat stands still
   bool interlocked = false;             ///< refuses every command but stop

@@ -203,6 +203,14 @@ TEST(JobSafety, DeliversTheStopAsSoonAsASilentControllerListensAgain) {
   EXPECT_EQ(bench.stage.count(StageAction::stop), 1);
 }
 
+TEST(JobSafety, AsksTheControllerAgainWhatItIsWhenTheAnswerWasLost) {
+  JobBench bench;
+  bench.stage.unanswered_identities = 5;
+  bench.start_job();
+  EXPECT_TRUE(bench.reach(JobState::grinding));
+  EXPECT_EQ(bench.stage.unanswered_identities, 0);
+}
+
 TEST(JobSafety, BeginsFaultedAndTouchesNothingUntilAPersonSaysSo) {
   JobBench bench;
   bench.tick(500);

@@ -63,8 +63,8 @@ TEST(StageCommands, GiveUpAfterTheConfiguredNumberOfAttempts) {
       bench.commands.poll(status, bench.now);
     }
   };
-  EXPECT_THAT(poll_for_ever, ThrowsMessage<StepFailure>(HasSubstr("in 3 attempts")));
-  EXPECT_EQ(bench.stage.handed_over.size(), 3U);
+  EXPECT_THAT(poll_for_ever, ThrowsMessage<StepFailure>(HasSubstr("in 10 attempts")));
+  EXPECT_EQ(bench.stage.handed_over.size(), 10U);
 }
 
 TEST(StageCommands, TellWhenTheControllerRefuses) {
