@@ -24,7 +24,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-SimulatedRig::SimulatedRig(const RigPlan& plan) : plan_(plan) {
+SimulatedRig::SimulatedRig(const RigPlan& plan) : plan_(plan), stage_(plan.listen) {
   write_twin_configuration();
   phantom_ = std::make_unique<sim::Phantom>(
       sim::read_configuration(bridge::CheckedTable::read_file(folder() / "sim.toml")).phantom);
@@ -38,9 +38,9 @@ void SimulatedRig::write_twin_configuration() const {
              "seed = 7\ntime_scale = " + std::to_string(plan_.time_scale) +
                  "\nstate_file = \"controller.json\"\nwitness_log = \"witness.jsonl\"\n"
                  "[stage]\nlisten = \"" +
-                 stage_ +
-                 "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
-                 "\"\n[rig]\nsocket = \"unix://rig.socket\"\n[camera]\nwidth = " +
+                 stage_ + "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP "\"\n" +
+                 plan_.twin_stage_settings +
+                 "[rig]\nsocket = \"unix://rig.socket\"\n[camera]\nwidth = " +
                  std::to_string(plan_.width) + "\nheight = " + std::to_string(plan_.height) +
                  "\npixel = " + std::to_string(plan_.pixel_um) +
                  "\ncolumn_offset = " + std::to_string(kColumnOffsetUm) +
@@ -49,9 +49,9 @@ void SimulatedRig::write_twin_configuration() const {
 
 void SimulatedRig::write_daemon_configuration() const {
   write_text(folder() / "rig.toml",
-             "[stage]\nendpoint = \"" + stage_ +
-                 "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP
-                 "\"\n[lines]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
+             "[stage]\nendpoint = \"" + (plan_.line_between ? plan_.line_between(stage_) : stage_) +
+                 "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP "\"\n" + plan_.daemon_stage_settings +
+                 "[lines]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "[camera]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "exposure_us = 10000\n"
                  "[job]\nsample = \"sample\"\nlayers = " +

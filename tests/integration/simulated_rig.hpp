@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,11 @@ struct RigPlan {
   double layer_thickness_um = 20;
   double first_face_um = 1000;
   double time_scale = 200;
+  std::string listen = "tcp://127.0.0.1:0";  ///< of the twin's controller
+  std::string twin_stage_settings = {};      ///< lines of sim.toml's [stage]
+  std::string daemon_stage_settings = {};    ///< lines of rig.toml's [stage]
+  /// From the controller's address to that which the daemon is given; both without it.
+  std::function<std::string(const std::string&)> line_between = {};
   std::string daemon_settings = {};  ///< the end of rig.toml: more keys of [service], then tables
 };
 
@@ -86,7 +92,7 @@ class SimulatedRig {
   std::unique_ptr<sim::Phantom> phantom_;
   std::unique_ptr<ChildProcess> twin_;
   std::unique_ptr<ChildProcess> daemon_;
-  std::string stage_ = "tcp://127.0.0.1:0";
+  std::string stage_;
   std::string url_;
 };
 
