@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/recovery.hpp"
 #include "acquisition/job/surroundings.hpp"
 #include "acquisition/records/journal_reader.hpp"
@@ -49,6 +50,7 @@ class PowerCuts::Opened {
  public:
   Opened(const PowerCuts& run, const fs::path& sample) : run_(run), settings_(run.settings_) {
     settings_.plan.sample = sample;
+    static_cast<void>(read_earlier_run(sample / "journal.sqlite"));
     bridge::CameraDescription camera;
     camera.width = run.width_;
     camera.height = run.height_;
