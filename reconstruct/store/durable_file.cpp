@@ -94,7 +94,26 @@ void create_folders_durably(const fs::path& folder) {
   if (error) {
     throw SampleError(folder.string() + ": cannot create this folder: " + error.message());
   }
+  try {
+    sync_folder(folder_of(folder));
+  } catch (const SampleError&) {
+    fs::remove(folder, error);  // whoever tries again shall not take it for one that lasts
+    throw;
+  }
+}
+
+void sync_folders(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    return;
+  }
   sync_folder(folder_of(folder));
+  sync_folder(folder);
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) {
+      sync_folder(entry.path());
+    }
+  }
 }
 
 void sync_folder(const fs::path& folder) {

@@ -52,6 +52,10 @@ void create_folders_durably(const std::filesystem::path& folder);
 /// fsyncs a folder: what was created or renamed in it stays.
 void sync_folder(const std::filesystem::path& folder);
 
+/// fsyncs a folder, all folders below it and the one above it, if it is there: a program that was
+/// killed may have made folders and not got to their fsync.
+void sync_folders(const std::filesystem::path& folder);
+
 /// Lower-case hexadecimal SHA-256.
 std::string sha256(std::span<const std::byte> bytes);
 std::string sha256_of_file(const std::filesystem::path& path);

@@ -44,6 +44,7 @@ VolumeWriter::VolumeWriter(const SampleFolder& sample, const VolumeLayout& layou
       array_{sample.description().cuboid.size, sample.description().bits, layout} {
   check_layout(layout);
   remove_unfinished_writes(volume_);
+  sync_folders(volume_);
   if (fs::exists(volume_ / kMetadataName)) {
     open();
   } else {

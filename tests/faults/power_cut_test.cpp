@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,9 +41,7 @@ class PowerCut : public testing::Test {
                 .daemon_settings = "[store]\nchunk = [32, 32, 2]\nshard = [64, 64, 2]\n"});
     const std::filesystem::path log = rig_->folder() / "disk.log";
     const auto start = [&] {
-      rig_->launch_daemon({"LD_PRELOAD=" BIOTOMY_DISK_RECORDER,
-                           "BIOTOMY_RECORD_FOLDER=" + rig_->sample().string(),
-                           "BIOTOMY_RECORD_LOG=" + log.string()});
+      rig_->launch_daemon(recorded(*rig_, log));
       rig_->await_daemon();
       const Outcome started = rig_->rig("start");
       ASSERT_EQ(started.exit_code, 0) << started.errors;
@@ -68,6 +67,13 @@ class PowerCut : public testing::Test {
   void SetUp() override { ASSERT_NE(cuts_, nullptr) << "the run could not be recorded"; }
 
   static std::size_t calls() { return cuts_->disk().calls().size(); }
+
+  /// The environment in which a daemon's disk is recorded.
+  static std::vector<std::string> recorded(const SimulatedRig& rig,
+                                           const std::filesystem::path& log) {
+    return {"LD_PRELOAD=" BIOTOMY_DISK_RECORDER, "BIOTOMY_RECORD_FOLDER=" + rig.sample().string(),
+            "BIOTOMY_RECORD_LOG=" + log.string()};
+  }
 
   /// Cuts the power after each call.
   static void expect_no_complaints(PowerLoss loss, unsigned seed = 0) {
@@ -160,9 +166,9 @@ TEST_F(PowerCut, LosesNothingThatWasCommittedAfterSyncsHadFailed) {
                                                            .at = number - back,
                                                            .error = "EIO",
                                                            .healed_by = healed});
-    environment.front() = "LD_PRELOAD=" BIOTOMY_DISK_RECORDER " " BIOTOMY_FAULTY_DISK;
-    environment.push_back("BIOTOMY_RECORD_FOLDER=" + run.rig().sample().string());
-    environment.push_back("BIOTOMY_RECORD_LOG=" + log.string());
+    const std::vector<std::string> recording = recorded(run.rig(), log);
+    environment.insert(environment.end(), recording.begin(), recording.end());
+    environment.emplace_back("LD_PRELOAD=" BIOTOMY_DISK_RECORDER " " BIOTOMY_FAULTY_DISK);
     run.rig().launch_daemon(environment);
     run.rig().await_daemon();
     run.go_on();
@@ -183,6 +189,29 @@ TEST_F(PowerCut, LosesNothingThatWasCommittedAfterSyncsHadFailed) {
                   IsEmpty())
           << "after call " << cut << " of " << calls.size();
     }
+  }
+}
+
+TEST_F(PowerCut, LosesNoFolderThatAKilledDaemonHadMadeAndNotSynced) {
+  KilledRun run(rig_->plan());
+  const std::filesystem::path log = run.rig().folder() / "disk.log";
+  std::vector<std::string> environment = recorded(run.rig(), log);
+  environment.front() = "LD_PRELOAD=" BIOTOMY_KILLING_POINT " " BIOTOMY_DISK_RECORDER;
+  environment.emplace_back("BIOTOMY_KILLING_POINT=before sync */volume.ome.zarr");
+  run.rig().launch_daemon(environment);
+  run.rig().await_daemon();
+  const Outcome started = run.rig().rig("start");
+  ASSERT_EQ(started.exit_code, 0) << started.errors;
+  ASSERT_EQ(run.rig().await_daemon_end(kLongestJob).exit_code, 128 + SIGKILL);
+  run.rig().launch_daemon(recorded(run.rig(), log));
+  run.rig().await_daemon();
+  run.finish();
+
+  const PowerCuts cuts(run.rig(), RecordedDisk(log));
+  std::mt19937 random(42);
+  for (std::size_t cut = 0; cut <= cuts.disk().calls().size(); ++cut) {
+    ASSERT_THAT(cuts.complaints(cut, PowerLoss::everything, random), IsEmpty())
+        << "after call " << cut << " of " << cuts.disk().calls().size();
   }
 }
 
