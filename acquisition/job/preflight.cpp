@@ -95,8 +95,6 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   PreflightFindings findings;
   findings.camera = camera.describe();
   camera.apply(settings.camera.settings);
-  const bridge::Frame trial = capture(camera, settings.camera.capture_time_out);
-  check_frame(trial, findings.camera, settings.plan);
   check_clock(surroundings.wall_clock());
   findings.records =
       std::make_shared<SampleRecords>(settings.plan, settings.store, findings.camera, surroundings);
@@ -104,10 +102,13 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   findings.disk_left_layers = findings.records->disk_left_layers();
 
   check_clock_against(findings.journal.last_event_at, surroundings.wall_clock());
+  // Once there are records, and whatever it shows: no frame is taken without one.
+  const bridge::Frame trial = capture(camera, settings.camera.capture_time_out);
   findings.records->record_event({.kind = "recovery",
                                   .state = to_string(JobState::preflight),
                                   .text = "trial frame " + std::to_string(trial.sequence),
                                   .at = utc_text(surroundings.wall_clock())});
+  check_frame(trial, findings.camera, settings.plan);
 
   const std::int64_t layers_to_do = settings.plan.layers - findings.journal.last_committed;
   const std::int64_t reserve = settings.limits.disk_reserve_layers;
