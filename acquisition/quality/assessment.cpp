@@ -3,12 +3,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
+#include <string>
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "acquisition/quality/face_judgement.hpp"
+#include "acquisition/quality/judgement.hpp"
 #include "acquisition/quality/sharpness.hpp"
 
 namespace biotomy::acquisition {
@@ -37,54 +39,6 @@ double clipped_fraction(const cv::Mat& image) {
   });
   return static_cast<double>(clipped) / static_cast<double>(image.total());
 }
-
-std::string sentence(const char* format, double value, double limit) {
-  std::array<char, 200> text{};
-  // NOLINTNEXTLINE(clang-diagnostic-format-nonliteral): every caller's format is a literal
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return text.data();
-}
-
-/// Collects metrics; the first that fails gives the reason.
-class Judgement {
- public:
-  void reject(const char* slug, const std::string& reason) {
-    if (!result_.slug.empty()) return;
-    result_.slug = slug;
-    result_.reason = reason;
-  }
-
-  void at_least(const char* name, double value, double limit, const char* slug,
-                const char* format) {
-    add(name, value, limit, value >= limit, slug, format);
-  }
-
-  void at_most(const char* name, double value, double limit, const char* slug, const char* format) {
-    add(name, value, limit, value <= limit, slug, format);
-  }
-
-  Assessment& result() { return result_; }
-
-  Assessment finish() {
-    if (result_.slug.empty()) {
-      result_.verdict = Verdict::accepted;
-      result_.slug = "good";
-      result_.reason = "every metric is within its limit";
-    } else {
-      result_.verdict = Verdict::rejected;
-    }
-    return result_;
-  }
-
- private:
-  void add(const char* name, double value, double limit, bool passed, const char* slug,
-           const char* format) {
-    result_.metrics.push_back({name, value, limit, passed});
-    if (!passed) reject(slug, sentence(format, value, limit));
-  }
-
-  Assessment result_;
-};
 
 std::string description(int width, int height, int type) {
   return std::to_string(width) + " × " + std::to_string(height) +
@@ -119,12 +73,10 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
                      "the frame is " + description(image.cols, image.rows, image.type()) +
                          " and the sample " +
                          description(expectation.width, expectation.height, expectation.type));
+    judgement.result().shows_the_face = false;
     return judgement.finish();
   }
-  if (expectation.previous_sequence && frame.sequence == *expectation.previous_sequence) {
-    judgement.reject("stale", "the camera gave frame " + std::to_string(frame.sequence) +
-                                  " again: it is of an earlier moment");
-  }
+  judge_moment(frame, expectation, judgement);
 
   const cv::Mat brightness = brightness_of(image);
   const double mean = cv::mean(brightness)[0];
@@ -142,6 +94,10 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
       expectation.focus_sharpness > 0.0 ? result.sharpness / expectation.focus_sharpness : 0.0;
   judgement.at_least("sharpness_ratio", result.sharpness_ratio, thresholds.minimum_sharpness_ratio,
                      "blurred", "the sharpness is %.3f of the focus peak's, below %.3f");
+
+  result.face = std::make_shared<const FacePrint>(take_face_print(image));
+  judge_rows(expectation.faces, thresholds, judgement);
+  judge_face_change(expectation.faces, thresholds, judgement);
   return judgement.finish();
 }
 

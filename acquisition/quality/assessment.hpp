@@ -1,10 +1,15 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "acquisition/quality/face_change.hpp"
+#include "acquisition/quality/face_print.hpp"
+#include "acquisition/quality/face_record.hpp"
 #include "firmware_bridge/camera/frame.hpp"
 
 namespace biotomy::acquisition {
@@ -34,6 +39,15 @@ struct Assessment {
   std::vector<Metric> metrics;
   double sharpness = 0.0;
   double sharpness_ratio = 0.0;  ///< to the focus peak it was compared with
+
+  /// False when it is a picture of something else than the face in work: of the face before, of an
+  /// earlier moment, of a part only, or not of the sample's size. Such a frame is never the layer,
+  /// whatever the policy: it would be stored under a name that lies.
+  bool shows_the_face = true;
+  /// False when a fresh picture shows still the last accepted layer's face.
+  bool face_changed = true;
+  FaceChange face_change;                 ///< from the last accepted layer's face
+  std::shared_ptr<const FacePrint> face;  ///< none when the frame is not of the sample's size
 };
 
 /// Thresholds of the metrics, each under the metric's name.
@@ -42,6 +56,12 @@ struct QualityThresholds {
   double minimum_brightness = 0.05;        ///< mean, of full scale
   double maximum_brightness = 0.95;        ///< mean, of full scale
   double maximum_clipped_fraction = 0.05;  ///< of pixels with a colour at full scale
+  double maximum_dead_rows = 0.01;         ///< part of the rows; see dead_share
+  double maximum_repeated_rows = 0.0;      ///< part of the noisy rows; see repeated_rows
+  double minimum_face_change = 0.0015;     ///< of the fine detail's energy; 0: not judged
+  /// And of the least that the last faces changed.
+  double minimum_face_change_ratio = 0.33;
+  double maximum_old_part = 0.0;  ///< of the frame, from an edge on, may still be the face before
 };
 
 /// What a frame is compared with.
@@ -51,6 +71,9 @@ struct FrameExpectation {
   int type = 0;                  ///< CV_8UC3 or CV_16UC3
   double focus_sharpness = 0.0;  ///< at the peak of this layer's sweep, or of the last one
   std::optional<std::uint64_t> previous_sequence;  ///< of the frame before
+  std::chrono::nanoseconds previous_timestamp{0};  ///< of the frame before; 0 is unknown
+  std::chrono::nanoseconds asked_at{0};            ///< the camera, by its clock; 0 is unknown
+  FaceRecord faces{};                              ///< the faces and frames before
 };
 
 /// Judges one frame. A frame that is of another size or kind than the sample's is rejected before

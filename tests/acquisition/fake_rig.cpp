@@ -154,12 +154,20 @@ bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
   const double defocus =
       std::abs(stage.status.ground_to.value - column_to_face_um - stage.status.column.value);
   bridge::Frame frame;
-  frame.image = chequered_face(width, height, 0.5 + defocus / 20.0);
+  frame.image = ground_face(width, height, 0.5 + defocus / 20.0,
+                            stuck_face_um.value_or(stage.status.ground_to.value));
+  add_noise(frame.image, static_cast<std::uint64_t>(captures));
   if (black_frames > 0) {
     --black_frames;
     frame.image.setTo(cv::Scalar::all(1));
   }
+  if (frozen) frame.image = last_picture_.clone();
+  last_picture_ = frame.image.clone();
   frame.sequence = static_cast<std::uint64_t>(captures);
+  if (old_frames > 0) {
+    --old_frames;
+    frame.sensor_timestamp = std::chrono::nanoseconds(1);
+  }
   frame.exposure = std::chrono::microseconds(10000);
   frame.gain = 1.0;
   return frame;
@@ -180,6 +188,27 @@ cv::Mat chequered_face(int width, int height, double sigma) {
   cv::Mat blurred;
   cv::GaussianBlur(face, blurred, {}, sigma);
   return blurred;
+}
+
+cv::Mat ground_face(int width, int height, double sigma, double depth_um) {
+  cv::RNG tones(static_cast<std::uint64_t>(std::llround(depth_um * 10.0)) + 1);
+  cv::Mat squares((height + 3) / 4, (width + 3) / 4, CV_32F);
+  tones.fill(squares, cv::RNG::UNIFORM, 0.75, 1.25);
+  cv::Mat face = chequered_face(width, height, 0.01);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      auto& pixel = face.at<cv::Vec3b>(row, column);
+      pixel = cv::Vec3b(squares.at<float>(row / 4, column / 4) * cv::Vec3f(pixel));
+    }
+  }
+  cv::GaussianBlur(face, face, {}, sigma);
+  return face;
+}
+
+void add_noise(cv::Mat& image, std::uint64_t number) {
+  cv::Mat noise(image.size(), CV_16SC3);
+  cv::RNG(number + 1).fill(noise, cv::RNG::NORMAL, 0.0, 0.7);
+  cv::add(image, noise, image, {}, image.type());
 }
 
 }  // namespace biotomy::tests

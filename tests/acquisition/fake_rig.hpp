@@ -74,20 +74,27 @@ struct FakeLines : bridge::Lines {
   void set(bridge::OutputRole role, bool value) override;
 };
 
-/// Photographs a chequered face, blurred by the column's distance from where the face is sharp.
+/// Photographs the face that is ground, blurred by the column's distance from where it is sharp,
+/// with noise of its own in every frame.
 struct FakeCamera : bridge::Camera {
   FakeStage& stage;
   double column_to_face_um = 400.0;  ///< sharp where column = ground_to - this
   int width = 96;
   int height = 64;
   bool gone = false;
-  int black_frames = 0;  ///< so many of the next frames are black
+  int black_frames = 0;                 ///< so many of the next frames are black
+  std::optional<double> stuck_face_um;  ///< shows the face of this depth, whatever is ground
+  bool frozen = false;                  ///< gives its last picture again, with a new number
+  int old_frames = 0;                   ///< so many of the next frames were exposed long ago
   int captures = 0;
 
   explicit FakeCamera(FakeStage& rig_stage) : stage(rig_stage) {}
   bridge::CameraDescription describe() override;
   void apply(const bridge::CameraSettings&) override {}
   bridge::Frame capture(std::chrono::milliseconds time_out) override;
+
+ private:
+  cv::Mat last_picture_;
 };
 
 /// Does what is posted at once, in the caller's thread.
@@ -104,5 +111,12 @@ struct HeldWorker : acquisition::Worker {
 
 /// Squares of 4 pixels in two colours, smoothed by a Gaussian of `sigma` pixels; CV_8UC3.
 cv::Mat chequered_face(int width, int height, double sigma);
+
+/// The same with tones that differ from square to square and have nothing in common from depth to
+/// depth.
+cv::Mat ground_face(int width, int height, double sigma, double depth_um);
+
+/// Adds noise of about a level; another for every number.
+void add_noise(cv::Mat& image, std::uint64_t number);
 
 }  // namespace biotomy::tests

@@ -33,7 +33,7 @@ TEST(Assessment, AcceptsAFrameAsSharpAsTheFocusPeak) {
   const Assessment good = Judged().assessment();
   EXPECT_EQ(good.verdict, Verdict::accepted);
   EXPECT_NEAR(good.sharpness_ratio, 1.0, 1e-9);
-  EXPECT_EQ(good.metrics.size(), 4U);
+  EXPECT_EQ(good.metrics.size(), 6U);
 }
 
 TEST(Assessment, RejectsABlurredFrameAndSaysHowMuch) {

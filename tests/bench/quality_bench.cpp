@@ -1,0 +1,84 @@
+// What the judgement of a frame costs beside the measures of brightness and sharpness, with Google
+// Benchmark: to find repeated rows, to take the print of a face, to compare two prints. The frame
+// has 20 megapixels of noisy texture; items are its pixels.
+//
+//   quality_bench [--benchmark_filter=compare] …
+
+#include <cstdint>
+
+#include <benchmark/benchmark.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "acquisition/quality/face_change.hpp"
+#include "acquisition/quality/face_print.hpp"
+#include "acquisition/quality/frame_rows.hpp"
+
+namespace {
+
+using namespace biotomy::acquisition;
+
+constexpr int kWidth = 5472;
+constexpr int kHeight = 3648;
+
+/// The same texture for the same depth, other noise for every exposure.
+cv::Mat frame(std::uint64_t depth, std::uint64_t exposure, int type) {
+  cv::Mat coarse(kHeight / 4, kWidth / 4, CV_32FC3);
+  cv::RNG(depth).fill(coarse, cv::RNG::UNIFORM, 60.0, 180.0);
+  cv::Mat face;
+  cv::resize(coarse, face, {kWidth, kHeight}, 0.0, 0.0, cv::INTER_CUBIC);
+  cv::Mat noise(face.size(), face.type());
+  cv::RNG(exposure).fill(noise, cv::RNG::NORMAL, 0.0, 2.0);
+  face += noise;
+  cv::Mat image;
+  face.convertTo(image, type, type == CV_16UC3 ? 257.0 : 1.0);
+  return image;
+}
+
+void count_pixels(benchmark::State& state) {
+  state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
+}
+
+void find_rows(benchmark::State& state, int type) {
+  const cv::Mat image = frame(1, 2, type);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(rows_of(image));
+  }
+  count_pixels(state);
+}
+
+/// With its rows.
+void take_print(benchmark::State& state, int type) {
+  const cv::Mat image = frame(1, 2, type);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(take_face_print(image));
+  }
+  count_pixels(state);
+}
+
+void compare(benchmark::State& state, std::uint64_t depth) {
+  const FacePrint before = take_face_print(frame(1, 2, CV_8UC3));
+  const FacePrint now = take_face_print(frame(depth, 3, CV_8UC3));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(measure_face_change(now, before));
+  }
+  count_pixels(state);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::RegisterBenchmark("rows/8", find_rows, CV_8UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("rows/16", find_rows, CV_16UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("print/8", take_print, CV_8UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("print/16", take_print, CV_16UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("compare/same", compare, 1)->UseRealTime();
+  benchmark::RegisterBenchmark("compare/other", compare, 9)->UseRealTime();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 2;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
