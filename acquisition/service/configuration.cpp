@@ -253,6 +253,24 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
   thresholds.maximum_clipped_fraction =
       number(table, "maximum_clipped_fraction", thresholds.maximum_clipped_fraction, "", 0.0, 1.0,
              "part of the pixels that may be at full scale in a colour");
+  thresholds.maximum_dead_rows =
+      number(table, "maximum_dead_rows", thresholds.maximum_dead_rows, "", 0.0, 1.0,
+             "part of a frame's rows that may hold one value all along where the face before "
+             "has a picture; above it the frame is not complete");
+  thresholds.maximum_repeated_rows =
+      number(table, "maximum_repeated_rows", thresholds.maximum_repeated_rows, "", 0.0, 1.0,
+             "part of a frame's rows that may be, bit for bit, an earlier frame's; above it the "
+             "frame is torn or old; 1 for a camera without noise");
+  thresholds.minimum_face_change =
+      number(table, "minimum_face_change", thresholds.minimum_face_change, "", 0.0, 1.0,
+             "part of the fine detail that must differ from the last accepted layer's, below it "
+             "the grind removed nothing; 0: not judged");
+  thresholds.minimum_face_change_ratio =
+      number(table, "minimum_face_change_ratio", thresholds.minimum_face_change_ratio, "", 0.0, 1.0,
+             "likewise, of the least that the last 16 faces changed");
+  thresholds.maximum_old_part =
+      number(table, "maximum_old_part", thresholds.maximum_old_part, "", 0.0, 1.0,
+             "part of the frame, from an edge on, that may still show the layer before");
 }
 
 Configuration read(const CheckedTable& document) {
