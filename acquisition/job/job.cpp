@@ -226,10 +226,7 @@ void Job::go(JobEvent event, TimePoint now) {
                            to_string(state_));
   }
   if (event == JobEvent::attempts_exhausted) {
-    pause_cause_ = "no frame of layer " + std::to_string(cycle_->layer()) + " was good enough in " +
-                   std::to_string(settings_.ladder.max_attempts) +
-                   " attempts (the last: " + cycle_->last_rejection() +
-                   "): look at it, then resume";
+    pause_cause_ = cycle_->why_exhausted();
     note("alarm", pause_cause_);
   }
   // A pause that was asked for is taken as soon as the table allows it.

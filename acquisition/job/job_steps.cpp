@@ -22,7 +22,7 @@ void Job::begin_preflight() {
   // anew: one journal has one writer.
   feed_.reset();
   keeper_.reset();
-  findings_ = {};
+  findings_ = PreflightFindings();
   inspection_ = {};
   begin_inspection();
 }
@@ -84,8 +84,8 @@ std::optional<JobEvent> Job::poll_recovering() {
   cycle_ = std::make_unique<LayerCycle>(
       settings_,
       CycleParts{commands_, parts_.lines, parts_.camera, parts_.worker, *keeper_, *feed_},
-      CycleStart{findings_.journal, identity_->column, findings_.camera,
-                 findings_.disk_left_layers});
+      CycleStart{findings_.journal, identity_->column, findings_.camera, findings_.disk_left_layers,
+                 findings_.faces});
   return JobEvent::agreed;
 }
 

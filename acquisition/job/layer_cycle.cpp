@@ -1,5 +1,6 @@
 #include "acquisition/job/layer_cycle.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include "acquisition/job/capture.hpp"
@@ -24,6 +25,7 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
   expectation_.width = start.camera.width;
   expectation_.height = start.camera.height;
   expectation_.type = settings.plan.bits == 16 ? CV_16UC3 : CV_8UC3;
+  expectation_.faces = start.faces;
   if (const auto& focus = start.journal.last_focus) {
     focus_memory_.remember(focus->layer, {focus->column, focus->sharpness});
   }
@@ -113,6 +115,7 @@ void LayerCycle::begin_capture(const bridge::StageStatus& status) {
         taken.attempt = attempt;
         taken.column = status.column;
         taken.telemetry = status;
+        taken.asked_at = std::chrono::steady_clock::now().time_since_epoch();
         taken.frame = capture(*camera, time_out);
         taken.taken_at = records.now();
         return taken;
@@ -121,6 +124,7 @@ void LayerCycle::begin_capture(const bridge::StageStatus& status) {
 
 void LayerCycle::begin_assessment() {
   expectation_.focus_sharpness = focus_memory_.peak_sharpness();
+  expectation_.asked_at = in_hand_->asked_at;
   assessment_ = parts_.keeper.ask([frame = in_hand_, expectation = expectation_,
                                    thresholds = settings_.thresholds](SampleRecords& records) {
     return assess_and_prepare(records, *frame, expectation, thresholds);
@@ -131,18 +135,21 @@ std::optional<JobEvent> LayerCycle::judge() {
   AssessedFrame assessed = assessment_.get();
   in_hand_->assessment = std::move(assessed.assessment);
   remember_judgement();
+  const Assessment& found = in_hand_->assessment;
   expectation_.previous_sequence = in_hand_->frame.sequence;
-  if (in_hand_->assessment.verdict == Verdict::accepted) {
+  expectation_.previous_timestamp = in_hand_->frame.sensor_timestamp;
+  if (found.face) expectation_.faces.saw(*found.face);
+  if (found.verdict == Verdict::accepted) {
     in_hand_->prepared = std::move(assessed.layer);
     return JobEvent::frame_accepted;
   }
 
   log_warning("quality", "layer " + std::to_string(layer_) + ", attempt " +
-                             std::to_string(attempt_) + ": " + in_hand_->assessment.reason);
-  last_rejection_ = in_hand_->assessment.reason;
-  const std::optional<JobEvent> next = after_rejection(climbed_, settings_.ladder);
-  const bool right_size = in_hand_->assessment.slug != "wrong-size";
-  if (right_size &&
+                             std::to_string(attempt_) + ": " + found.reason);
+  unchanged_ = found.face_changed ? 0 : unchanged_ + 1;
+  last_rejection_ = found.reason;
+  const std::optional<JobEvent> next = after_rejection(climbed_, unchanged_, settings_.ladder);
+  if (found.shows_the_face &&
       (!best_rejected_ || in_hand_->assessment.sharpness > best_rejected_->assessment.sharpness)) {
     std::swap(best_rejected_, in_hand_);
   }
@@ -153,7 +160,10 @@ std::optional<JobEvent> LayerCycle::judge() {
     focus_again_ = *next == JobEvent::focus_again || *next == JobEvent::clear_again;
     return next;
   }
-  if (settings_.ladder.exhausted == LadderSettings::Exhausted::accept && best_rejected_) {
+  // An earlier frame, too blurred to tell, shows the same old face.
+  const bool may_accept = settings_.ladder.exhausted == LadderSettings::Exhausted::accept &&
+                          best_rejected_ && unchanged_ == 0;
+  if (may_accept) {
     in_hand_ = std::exchange(best_rejected_, nullptr);
     in_hand_->assessment.verdict = Verdict::accepted_with_flag;
     remember_judgement();
@@ -184,6 +194,7 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
   const Stored stored = stored_.get();
   disk_left_layers_ = stored.disk_left_layers;
   focus_memory_.accepted(in_hand_->assessment.sharpness_ratio);
+  expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
   last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
   in_hand_.reset();
   parts_.feed.offer(layer_);
@@ -199,6 +210,7 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
   ++layer_;
   attempt_ = 0;
   climbed_ = 0;
+  unchanged_ = 0;
   return JobEvent::layer_committed;
 }
 
@@ -254,6 +266,16 @@ std::string LayerCycle::waiting_for(JobState step) const {
     default:
       return "";
   }
+}
+
+std::string LayerCycle::why_exhausted() const {
+  if (unchanged_ > 0) {
+    return "layer " + std::to_string(layer_) + " has no face of its own: " + last_rejection_ +
+           ": look at the wheel and the block, then resume";
+  }
+  return "no frame of layer " + std::to_string(layer_) + " was good enough in " +
+         std::to_string(climbed_) + " attempts, at last because " + last_rejection_ +
+         ": look at it, then resume";
 }
 
 }  // namespace biotomy::acquisition

@@ -15,6 +15,7 @@
 #include "acquisition/job/judged_attempt.hpp"
 #include "acquisition/job/stage_commands.hpp"
 #include "acquisition/job/worker.hpp"
+#include "acquisition/quality/face_record.hpp"
 #include "acquisition/records/record_keeper.hpp"
 #include "acquisition/records/volume_feed.hpp"
 #include "firmware_bridge/camera/camera.hpp"
@@ -38,6 +39,7 @@ struct CycleStart {
   bridge::AxisLimits column;
   bridge::CameraDescription camera;
   std::int64_t disk_left_layers = 0;
+  FaceRecord faces{};
 };
 
 /// The last layer that was committed, for the status.
@@ -62,10 +64,12 @@ class LayerCycle {
 
   std::string waiting_for(JobState step) const;
 
+  /// After `attempts_exhausted`: why the layer has no frame, and what to do.
+  std::string why_exhausted() const;
+
   std::int64_t layer() const { return layer_; }  ///< the one in work
   int attempt() const { return attempt_; }       ///< of it; 0 before its first frame
   std::int64_t disk_left_layers() const { return disk_left_layers_; }
-  const std::string& last_rejection() const { return last_rejection_; }
   const std::optional<CommittedLayer>& last_committed() const { return last_committed_; }
   const std::optional<JudgedAttempt>& last_judged() const { return last_judged_; }
 
@@ -91,8 +95,10 @@ class LayerCycle {
   FocusStep focus_;
 
   std::int64_t layer_;
-  int attempt_;      ///< as journalled: goes on counting after a restart
-  int climbed_ = 0;  ///< attempts since the ladder was begun
+  int attempt_;                 ///< as journalled: goes on counting after a restart
+  int climbed_ = 0;             ///< attempts since the ladder was begun
+  int unchanged_ = 0;           ///< of these, the last so many found the face of the layer before
+  std::string last_rejection_;  ///< why the last frame that was rejected was not good enough
   bool focus_again_ = false;
   std::int64_t disk_left_layers_;
   TimePoint step_begin_{};
@@ -102,7 +108,6 @@ class LayerCycle {
   std::shared_ptr<JudgedFrame> best_rejected_;
   std::future<AssessedFrame> assessment_;
   std::future<Stored> stored_;
-  std::string last_rejection_;  ///< why the last frame that was rejected was not good enough
   std::optional<CommittedLayer> last_committed_;
   std::optional<JudgedAttempt> last_judged_;
 };

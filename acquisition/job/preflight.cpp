@@ -5,6 +5,7 @@
 #include "acquisition/job/capture.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/step_failure.hpp"
+#include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/records/utc_time.hpp"
 
 namespace biotomy::acquisition {
@@ -122,6 +123,8 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
                    " more layers and the job needs " + std::to_string(layers_to_do) +
                    ": make room, or set safety.disk_for_whole_job to false");
   }
+  findings.faces = recall_faces(findings.records->sample(), findings.journal.last_committed,
+                                surroundings.read_layer);
   return findings;
 }
 

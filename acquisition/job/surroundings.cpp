@@ -27,6 +27,7 @@ Surroundings real_surroundings() {
       .free_bytes =
           [](const std::filesystem::path& path) { return std::filesystem::space(path).available; },
       .prepare_layer = reconstruct::prepare_layer_image,
+      .read_layer = reconstruct::read_layer_image,
       .open_volume = append_to_volume};
 }
 

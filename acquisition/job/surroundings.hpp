@@ -24,6 +24,7 @@ struct Surroundings {
                                           const reconstruct::LayerPosition&,
                                           const reconstruct::LayerFormat&)>
       prepare_layer;
+  std::function<cv::Mat(const std::filesystem::path&)> read_layer;
   std::function<VolumeFeed::Append(const reconstruct::SampleFolder&,
                                    const reconstruct::VolumeLayout&)>
       open_volume;

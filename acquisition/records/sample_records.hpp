@@ -25,6 +25,7 @@ struct JudgedFrame {
   std::int64_t layer = 0;
   int attempt = 0;
   std::string taken_at;
+  std::chrono::nanoseconds asked_at{0};  ///< the camera was, CLOCK_MONOTONIC
   bridge::Micrometres column{};
   bridge::StageStatus telemetry;
   reconstruct::PublishLayer prepared = {};  ///< its layer; empty if nobody has prepared it

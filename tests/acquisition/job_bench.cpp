@@ -34,12 +34,14 @@ JobBench::JobBench() {
     if (!store_failure.empty()) throw reconstruct::SampleError(store_failure);
     const auto held = std::make_shared<int>(++prepared);
     last_prepared = held;
-    return [this, path, size = image.size(), held] {
-      std::ofstream(path) << size.width << " x " << size.height;
+    return [this, path, image = image.clone(), held] {
+      std::ofstream(path) << image.cols << " x " << image.rows;
       written.push_back(path.filename().string());
+      images[path] = image;
       return reconstruct::StoredLayer{.bytes = std::filesystem::file_size(path), .sha256 = "abc"};
     };
   };
+  surroundings.read_layer = [this](const std::filesystem::path& path) { return images.at(path); };
   surroundings.open_volume = [this](const auto&, const auto&) {
     return [this](std::int64_t available, bool finish, const auto& progress) {
       if (finish) in_volume = available;

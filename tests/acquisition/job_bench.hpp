@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,10 +30,11 @@ struct JobBench {
   acquisition::Surroundings surroundings;
 
   std::uintmax_t free_bytes = std::uintmax_t{1} << 40U;
-  std::string store_failure;         ///< not empty: writing a layer fails with this
-  int prepared = 0;                  ///< layers, stored in the end or not
-  std::weak_ptr<int> last_prepared;  ///< expired once it is published or given up
-  std::vector<std::string> written;  ///< names of the layer files, in order
+  std::string store_failure;                        ///< not empty: writing a layer fails with this
+  int prepared = 0;                                 ///< layers, stored in the end or not
+  std::weak_ptr<int> last_prepared;                 ///< expired once it is published or given up
+  std::vector<std::string> written;                 ///< names of the layer files, in order
+  std::map<std::filesystem::path, cv::Mat> images;  ///< what these show
   std::int64_t in_volume = 0;
   bool volume_finished = false;
 

@@ -189,6 +189,77 @@ TEST(Job, PausesWhenNoFrameIsGoodEnoughAndKeepsEveryRecord) {
   EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND verdict = 'accepted' AND attempt = 5"), 1);
 }
 
+TEST(Job, PausesAfterASecondFrameWhenTheGrindRemovedNothing) {
+  for (const auto exhausted :
+       {LadderSettings::Exhausted::pause, LadderSettings::Exhausted::accept}) {
+    JobBench bench;
+    bench.settings.ladder.exhausted = exhausted;
+    bench.start_daemon();
+    bench.start_job();
+    while (bench.board.look()->committed < 2) bench.tick();
+    bench.camera.stuck_face_um = 1020.0;  // layer 2's
+    ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+    EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND slug = 'face-unchanged'"), 2);
+    EXPECT_EQ(bench.count_rows("attempts", "layer = 3"), 2);
+    EXPECT_EQ(bench.count_rows("layers"), 2);
+    EXPECT_EQ(bench.stage.ground().size(), 3U);
+    EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("differs from layer 2's"));
+    EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("look at the wheel"));
+
+    bench.camera.stuck_face_um.reset();
+    EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
+    ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+    EXPECT_EQ(bench.count_rows("layers"), 5);
+  }
+}
+
+TEST(Job, ComparesTheFirstFaceAfterARestartWithTheLastStoredOne) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 2) bench.tick();
+  bench.start_daemon(bench.stage.status.sequence_started);
+  bench.camera.stuck_face_um = 1020.0;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND slug = 'face-unchanged'"), 2);
+}
+
+TEST(Job, DoesNotAcceptABlurredFrameOfAFaceThatTurnsOutToBeOld) {
+  JobBench bench;
+  bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
+  bench.start_daemon();
+  bench.start_job();
+  while (bench.board.look()->committed < 2) bench.tick();
+  bench.camera.stuck_face_um = 1020.0;     // layer 2's
+  bench.camera.column_to_face_um += 60.0;  // and out of focus, until the ladder focuses again
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND slug = 'blurred'"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND slug = 'face-unchanged'"), 2);
+  EXPECT_EQ(bench.count_rows("layers"), 2);
+}
+
+TEST(Job, NeverStoresAnOldPictureWhateverThePolicy) {
+  JobBench bench;
+  bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
+  bench.start_daemon();
+  bench.start_job();
+  while (bench.board.look()->committed < 2) bench.tick();
+  bench.camera.frozen = true;
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("layers"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND slug = 'stale'"), 4);
+  EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("the camera gave an old picture again"));
+}
+
+TEST(Job, TakesAgainAFrameThatWasExposedBeforeItWasAskedFor) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 1) bench.tick();
+  bench.camera.old_frames = 1;
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'stale'"), 1);
+}
+
 TEST(Job, AcceptsTheSharpestWithAFlagWhenConfiguredSo) {
   JobBench bench;
   bench.settings.plan.layers = 1;

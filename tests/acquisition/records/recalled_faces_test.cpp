@@ -1,0 +1,73 @@
+#include "acquisition/records/recalled_faces.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "acquisition/quality/face_judgement.hpp"
+#include "acquisition/records/layer_journal.hpp"
+#include "tests/acquisition/fake_rig.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+
+struct Past {
+  TemporaryFolder folder;
+  reconstruct::SampleFolder sample = reconstruct::SampleFolder::create(
+      folder.path() / "knee", {.name = "knee",
+                               .cuboid = {.size = {96, 64, 30}, .spacing = {10.0, 10.0, 20.0}},
+                               .bits = 8,
+                               .notes = "",
+                               .created = ""});
+  LayerJournal journal{sample.journal_path()};
+  std::vector<std::filesystem::path> read;
+
+  void commit(std::int64_t layer, std::optional<double> change) {
+    AttemptRow attempt;
+    attempt.layer = layer;
+    attempt.attempt = 1;
+    attempt.assessment.verdict = Verdict::accepted;
+    if (change) attempt.assessment.metrics.push_back({kFaceChange, *change, 0.01, true});
+    journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
+  }
+
+  FaceRecord recall(std::int64_t last) {
+    return recall_faces(sample, last, [this](const std::filesystem::path& path) {
+      read.push_back(path);
+      return ground_face(96, 64, 0.5, 1000.0);
+    });
+  }
+};
+
+TEST(RecalledFaces, AreNoneBeforeALayerIsCommitted) {
+  Past past;
+  const FaceRecord faces = past.recall(0);
+  EXPECT_EQ(faces.face(), nullptr);
+  EXPECT_TRUE(past.read.empty());
+}
+
+TEST(RecalledFaces, AreTheLastLayersImageAndTheChangesInTheJournal) {
+  Past past;
+  past.commit(1, std::nullopt);
+  for (std::int64_t layer = 2; layer <= 5; ++layer) {
+    past.commit(layer, 0.1 * static_cast<double>(layer));
+  }
+  const FaceRecord faces = past.recall(5);
+  EXPECT_EQ(faces.layer(), 5);
+  ASSERT_NE(faces.face(), nullptr);
+  EXPECT_EQ(past.read, std::vector{past.sample.layer_path(5)});
+  EXPECT_DOUBLE_EQ(faces.least_change().value(), 0.2);
+  EXPECT_EQ(faces.recent_frames().size(), 1U);
+}
+
+TEST(RecalledFaces, OfLongAgoDoNotCount) {
+  Past past;
+  past.commit(1, 0.001);
+  for (std::int64_t layer = 2; layer <= 20; ++layer) past.commit(layer, 0.2);
+  EXPECT_DOUBLE_EQ(past.recall(20).least_change().value(), 0.2);
+}
+
+}  // namespace
+}  // namespace biotomy::tests
