@@ -14,8 +14,8 @@ struct Change {
   double error = 0.0;  ///< its standard deviation as the noise alone makes it
 };
 
-/// The change between two faces, where there is detail to tell by: nothing where there is none, as
-/// on bare casting material.
+/// The change between two faces, of each part the upper quartile of its patches: nothing where
+/// there is no detail to tell by, as on bare casting material.
 struct FaceChange {
   std::optional<Change> whole;
   std::vector<std::optional<Change>> rows;     ///< of patches, from the top
