@@ -87,6 +87,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
   commands_.raise_to(earlier.last_sequence);
   alarm_ = Alarm{"the daemon has just started: look at the rig, then acknowledge",
                  utc_text(surroundings_.wall_clock())};
+  publish();
 }
 
 bool Job::at_rest() const {

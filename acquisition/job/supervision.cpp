@@ -72,6 +72,7 @@ std::optional<std::string> Supervision::standing_cause() const {
 }
 
 std::optional<std::string> Supervision::line_cause(const bridge::SafetyInputs& inputs) {
+  if (!inputs.failure.empty()) return "e-stop and door cannot be read: " + inputs.failure;
   if (inputs.estop_pressed) return "the e-stop is pressed (line)";
   if (inputs.door_open) return "the door is open (line)";
   return std::nullopt;

@@ -1,6 +1,7 @@
 #include "acquisition/service/secret_file.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 #include <fcntl.h>
@@ -64,19 +65,19 @@ std::string read_secret_file(const std::filesystem::path& file, const std::strin
 
 bool make_secret_file(const std::filesystem::path& file, const std::string& what,
                       const std::string& text) {
-  const bridge::UniqueFd made(
-      ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
-  if (!made.valid()) {
-    if (errno == EEXIST) return false;
-    fail(file, what, std::string("cannot be made: ") + std::strerror(errno));
-  }
+  // It gets its name when it is whole: a process that is killed before leaves a hidden file that
+  // nobody reads, not an empty secret.
+  std::string beside = (file.parent_path() / ("." + file.filename().string() + ".XXXXXX")).string();
+  const bridge::UniqueFd made(::mkostemp(beside.data(), O_CLOEXEC));  // for its owner alone
+  if (!made.valid()) fail(file, what, std::string("cannot be made: ") + std::strerror(errno));
   const ssize_t written = ::write(made.get(), text.data(), text.size());
-  if (written != static_cast<ssize_t>(text.size()) || ::fsync(made.get()) != 0) {
-    const std::string reason = std::strerror(errno);
-    ::unlink(file.c_str());
-    fail(file, what, "cannot be written: " + reason);
-  }
-  return true;
+  const bool whole = written == static_cast<ssize_t>(text.size()) && ::fsync(made.get()) == 0;
+  const bool named = whole && ::link(beside.c_str(), file.c_str()) == 0;
+  const int error = errno;
+  ::unlink(beside.c_str());
+  if (named) return true;
+  if (whole && error == EEXIST) return false;
+  fail(file, what, std::string("cannot be written: ") + std::strerror(error));
 }
 
 }  // namespace biotomy::acquisition

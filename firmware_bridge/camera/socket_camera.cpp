@@ -52,6 +52,7 @@ std::uint64_t SocketCamera::connect(std::chrono::milliseconds time_out) {
 }
 
 CameraDescription SocketCamera::describe() {
+  client_.disconnect();  // what an earlier connection told may be of a rig that was restarted since
   connect(time_out_);
   const WelcomeMessage::Camera& camera = *client_.welcome().camera;
   return {.model = camera.model, .width = camera.width, .height = camera.height};

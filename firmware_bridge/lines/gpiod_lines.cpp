@@ -12,10 +12,11 @@ std::optional<GpioLine> optional_output(const std::optional<GpioLineSettings>& s
 }
 
 /// A line that can't be read is reported in its unsafe state, which is "active".
-bool active_or_unreadable(GpioLine& line) {
+bool active_or_unreadable(GpioLine& line, std::string& failure) {
   try {
     return line.is_active();
-  } catch (const DeviceError&) {
+  } catch (const DeviceError& error) {
+    failure = error.what();
     return true;
   }
 }
@@ -44,7 +45,10 @@ GpiodLines::~GpiodLines() {
 }
 
 SafetyInputs GpiodLines::read_inputs() {
-  return {.estop_pressed = active_or_unreadable(estop_), .door_open = active_or_unreadable(door_)};
+  SafetyInputs inputs;
+  inputs.estop_pressed = active_or_unreadable(estop_, inputs.failure);
+  inputs.door_open = active_or_unreadable(door_, inputs.failure);
+  return inputs;
 }
 
 GpioLine& GpiodLines::output(OutputRole role) {

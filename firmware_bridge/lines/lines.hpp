@@ -1,14 +1,17 @@
 #pragma once
 
+#include <string>
+
 namespace biotomy::bridge {
 
 enum class OutputRole { lamp, trigger, tower_light };
 
 /// The safety inputs as they are, polarity already applied. An input that cannot be read is
-/// reported in its unsafe state.
+/// reported in its unsafe state, with the reason.
 struct SafetyInputs {
   bool estop_pressed = true;
   bool door_open = true;
+  std::string failure = {};  ///< why not every input could be read; empty when all were
 };
 
 /// The rig's digital lines, by role. Outputs go to off when the object is destroyed.

@@ -40,8 +40,8 @@ SafetyInputs SocketLines::read_inputs() {
     const RigAnswer answer = ask_device(client_, "lines", ReadInputsMessage{}, "inputs", time_out_);
     const auto& inputs = std::get<InputsMessage>(answer.message);
     return {.estop_pressed = inputs.estop_pressed, .door_open = inputs.door_open};
-  } catch (const DeviceError&) {
-    return {.estop_pressed = true, .door_open = true};
+  } catch (const DeviceError& error) {
+    return {.estop_pressed = true, .door_open = true, .failure = error.what()};
   }
 }
 

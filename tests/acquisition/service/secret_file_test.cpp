@@ -34,6 +34,13 @@ TEST_F(SecretFile, IsMadeForItsOwnerAloneAndReadAgain) {
   EXPECT_EQ(read_secret_file(file, "the token file"), "a secret\n");
 }
 
+TEST_F(SecretFile, LeavesNothingElseBehind) {
+  make_secret_file(file, "the token file", "first");
+  make_secret_file(file, "the token file", "second");
+  const auto entries = std::filesystem::directory_iterator(file.parent_path());
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+}
+
 TEST_F(SecretFile, IsNeverMadeOverOneThatIsThere) {
   make_secret_file(file, "the token file", "first");
   EXPECT_FALSE(make_secret_file(file, "the token file", "second"));

@@ -1,5 +1,6 @@
 #include "firmware_bridge/lines/socket_lines.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "firmware_bridge/device_error.hpp"
@@ -38,6 +39,7 @@ TEST(SocketLines, AreUnsafeWhenNobodyIsThere) {
   const tests::TemporaryFolder folder;
   SocketLines lines(folder / "none.sock", 5s);
   EXPECT_TRUE(is_unsafe(lines.read_inputs()));
+  EXPECT_THAT(lines.read_inputs().failure, ::testing::HasSubstr("lines at unix://"));
 }
 
 TEST(SocketLines, AreUnsafeWhenThePeerDiesAndSafeAgainWhenItIsBack) {
