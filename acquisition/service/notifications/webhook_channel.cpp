@@ -100,8 +100,13 @@ void WebhookChannel::deliver(const std::string& message, std::chrono::millisecon
     const CutOff cut_off(client, time_out, stop);
     return client.send(request);
   }();
+  // An answer without a body is not shown to the handler.
+  if (result) status = result->status;
   if (status == 0) {
     if (stop.stop_requested()) throw DeliveryError(url_.origin + " was given up with the daemon");
+    if (result.error() == httplib::Error::SSLServerVerification) {
+      throw DeliveryError(url_.origin + " shows a certificate that this computer does not trust");
+    }
     throw DeliveryError(url_.origin + " does not answer: " + httplib::to_string(result.error()));
   }
   if (status < 200 || status > 299) {

@@ -43,6 +43,9 @@ class HookServer {
     server_.Post("/elsewhere", [](const httplib::Request&, httplib::Response& response) {
       response.set_redirect("/hook");
     });
+    server_.Post("/silent", [](const httplib::Request&, httplib::Response& response) {
+      response.status = 204;
+    });
     server_.Post("/talkative", [](const httplib::Request&, httplib::Response& response) {
       response.set_content(std::string(10'000'000, 'x'), "text/plain");
     });
@@ -124,6 +127,12 @@ TEST(WebhookChannel, FollowsNoRedirection) {
   WebhookChannel channel(*split_url(server.origin() + "/elsewhere"), "");
   EXPECT_THAT(delivering(channel), ThrowsMessage<DeliveryError>(HasSubstr("status 302")));
   EXPECT_TRUE(server.requests().empty());
+}
+
+TEST(WebhookChannel, TakesAnAnswerWithoutWords) {
+  HookServer server;
+  WebhookChannel channel(*split_url(server.origin() + "/silent"), "");
+  EXPECT_NO_THROW(channel.deliver(message(), kTime, {}));
 }
 
 TEST(WebhookChannel, NeedsNoMoreThanTheStatusOfAnAnswer) {
