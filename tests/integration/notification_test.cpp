@@ -68,7 +68,9 @@ TEST(Notifications, SurviveADaemonThatIsKilledBeforeTheyAreDelivered) {
   rig.start_daemon();
   ASSERT_EQ(rig.rig("start").exit_code, 0);
   const auto limit = std::chrono::steady_clock::now() + seconds(60);
-  while (rig.status().at("committed") < 1) ASSERT_LT(std::chrono::steady_clock::now(), limit);
+  while (rig.status().at("committed") < 1) {
+    ASSERT_LT(std::chrono::steady_clock::now(), limit) << rig.status().dump(1);
+  }
   rig.kill_daemon();
   rig.start_daemon();  // finds that the one before it ended at work
   ASSERT_TRUE(hook.await_attempts(3));
