@@ -118,8 +118,6 @@ class Job {
   bool went_on_by_itself_ = false;
   std::optional<TimePoint> good_since_;  ///< the rig, while it may go on by itself
   std::optional<TimePoint> first_tick_;
-  bool start_after_reset_ = false;
-  bool pause_requested_ = false;
   std::string pause_cause_;  ///< as in JobStatus
   struct Answer {
     std::promise<OperatorReply> promise;
@@ -127,6 +125,8 @@ class Job {
   };
   std::vector<Answer> answers_;  ///< given at the tick's end, when the board shows what they tell
   std::optional<std::promise<OperatorReply>> reset_answer_;  ///< given when the latch has opened
+  bool start_after_reset_ = false;
+  bool pause_requested_ = false;
   bool shutting_down_ = false;
   bool job_begun_ = false;  ///< and neither done nor aborted
 
