@@ -31,7 +31,12 @@ std::string webhook(const HookServer& hook) {
 
 TEST(Notifications, TellTheEndOfAJobByCommandAndByWebhook) {
   HookServer hook;
-  SimulatedRig rig(plan_with(webhook(hook) + "command = [\"/bin/sh\", \"-c\", \"cat > told\"]\n"));
+  const TemporaryFolder folder;
+  const std::filesystem::path told = folder / "told";
+  SimulatedRig rig(plan_with(webhook(hook) +
+                             "command = [\"/bin/sh\", \"-c\", \"cat > $0.part; mv $0.part $0\", "
+                             "\"" +
+                             told.string() + "\"]\n"));
   rig.start_daemon();
   ASSERT_EQ(rig.rig("start").exit_code, 0);
   ASSERT_EQ(rig.rig("watch", seconds(120)).exit_code, 0);
@@ -39,6 +44,9 @@ TEST(Notifications, TellTheEndOfAJobByCommandAndByWebhook) {
   ASSERT_FALSE(message.is_null());
   EXPECT_EQ(message.at("committed"), 3);
   EXPECT_EQ(message.at("job"), "sample");
+  const auto limit = std::chrono::steady_clock::now() + seconds(60);
+  while (!std::filesystem::exists(told)) ASSERT_LT(std::chrono::steady_clock::now(), limit);
+  EXPECT_EQ(json::parse(std::ifstream(told)), message);
   EXPECT_EQ(rig.end_daemon().exit_code, 0);
   EXPECT_EQ(hook.messages().size(), 1U);
 }
