@@ -52,6 +52,7 @@ void SimulatedRig::write_daemon_configuration() const {
              "[stage]\nendpoint = \"" + (plan_.line_between ? plan_.line_between(stage_) : stage_) +
                  "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP "\"\n" + plan_.daemon_stage_settings +
                  "[lines]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
+                 "response_timeout_ms = 5000\n"  // a machine that is busy presses no e-stop
                  "[camera]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "exposure_us = 10000\n"
                  "[job]\nsample = \"sample\"\nlayers = " +
