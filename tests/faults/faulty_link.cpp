@@ -72,7 +72,7 @@ std::uint16_t port_of(const UniqueFd& socket) {
 void put(int descriptor, const Bytes& bytes) {
   const ssize_t sent = ::send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   if (sent < 0 && errno == ENOTSOCK) {
-    static_cast<void>(::write(descriptor, bytes.data(), bytes.size()) + 0);
+    [[maybe_unused]] const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
   }
 }
 

@@ -122,7 +122,8 @@ class SerialSlaveInAThread {
 
   void put(const Bytes& bytes) {
     if (bytes.empty()) return;
-    static_cast<void>(::write(terminal_->descriptor(), bytes.data(), bytes.size()) + 0);
+    [[maybe_unused]] const ssize_t written =
+        ::write(terminal_->descriptor(), bytes.data(), bytes.size());
   }
 
   tests::TemporaryFolder folder_;
