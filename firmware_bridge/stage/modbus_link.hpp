@@ -25,7 +25,7 @@ struct ModbusLinkSettings {
   std::chrono::milliseconds response_timeout{500};  ///< for a connection and for a whole answer
   int read_retries = 1;                             ///< more tries of a read without a good answer
   std::chrono::milliseconds reconnect_delay{100};   ///< after a second failure; then it doubles
-  std::chrono::milliseconds reconnect_delay_max{5000};
+  std::chrono::milliseconds reconnect_delay_max{1000};
 };
 
 /// The link to a Modbus slave, over TCP or over a serial line (RTU). One thread owns it.
