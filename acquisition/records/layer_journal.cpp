@@ -68,11 +68,12 @@ void make_journal(const std::filesystem::path& path) {
   std::error_code error;
   for (const char* part : {"", "-journal", "-wal", "-shm"}) fs::remove(fresh + part, error);
   {
+    // Without a write-ahead log, which closing would move into the database without a word of what
+    // goes wrong: so all is in the one file, and on the disk, or it is an error.
     SQLite::Database database(fresh, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
-    database.exec("PRAGMA journal_mode = WAL");
     database.exec("PRAGMA synchronous = FULL");
     migrate_journal(database);
-  }  // closing puts all into the one file and removes the others
+  }
   fs::rename(fresh, path, error);
   if (error) throw JournalError("the journal " + path.string() + ": " + error.message());
   try {
