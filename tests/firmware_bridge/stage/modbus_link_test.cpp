@@ -93,7 +93,7 @@ TEST_F(ModbusLinkTest, TriesAReadAgainOnANewConnectionAfterATimeOut) {
 }
 
 TEST_F(ModbusLinkTest, GivesAReadUpAfterItsRetries) {
-  open(20ms, 2);
+  open(300ms, 2);
   slave_.silent_requests = 1000;
   EXPECT_EQ(kind_of_failure([&] { read(0); }), Kind::timeout);
   EXPECT_FALSE(link_->connected());
@@ -102,7 +102,7 @@ TEST_F(ModbusLinkTest, GivesAReadUpAfterItsRetries) {
 }
 
 TEST_F(ModbusLinkTest, NeverTriesAWriteAgain) {
-  open(20ms, 5);
+  open(300ms, 5);
   slave_.silent_requests = 1000;
   EXPECT_EQ(kind_of_failure([&] { write(0, 1); }), Kind::timeout);
   EXPECT_FALSE(link_->connected());

@@ -90,7 +90,7 @@ TEST_F(ModbusSerialLinkTest, ReadsAgainWhenTheAnswerWasDamaged) {
 }
 
 TEST_F(ModbusSerialLinkTest, NeverTakesALateAnswerForAnother) {
-  open(100ms, 5);
+  open(300ms, 5);
   slave_.input[0] = 1;
   EXPECT_EQ(read(0), 1);
   slave_.withheld_answers = 1;
@@ -115,7 +115,7 @@ TEST_F(ModbusSerialLinkTest, ThrowsASecondCopyOfAnAnswerAway) {
 }
 
 TEST_F(ModbusSerialLinkTest, NeverTriesAWriteAgain) {
-  open(100ms, 5);
+  open(300ms, 5);
   read(0);
   slave_.silent_answers = 1;
   EXPECT_EQ(kind_of_failure([&] { write(5, 1); }), Kind::timeout);
@@ -138,7 +138,7 @@ TEST_F(ModbusSerialLinkTest, BelievesARefusalOnlyWhenItComesTwice) {
 }
 
 TEST_F(ModbusSerialLinkTest, FailsAtOnceAndSendsNothingWhileADeadLineIsLeftAlone) {
-  open(20ms, 0);
+  open(300ms, 0);
   slave_.silent_answers = 1000;
   EXPECT_EQ(kind_of_failure([&] { read(0); }), Kind::timeout);
   EXPECT_EQ(kind_of_failure([&] { read(0); }), Kind::timeout);
