@@ -66,6 +66,7 @@ class Job {
   void exchange(TimePoint now);
   void supervise(TimePoint now);
   void hear_operator(TimePoint now);
+  void hear(OperatorDesk::Request& request, TimePoint now);
   void answer_operator();
   OperatorReply obey(OperatorCommand command, TimePoint now);
   OperatorReply begin(JobEvent event, TimePoint now);
@@ -123,6 +124,7 @@ class Job {
     std::promise<OperatorReply> promise;
     OperatorReply reply;
   };
+  std::vector<OperatorDesk::Request> waiting_;  ///< until the controller is seen again
   std::vector<Answer> answers_;  ///< given at the tick's end, when the board shows what they tell
   std::optional<std::promise<OperatorReply>> reset_answer_;  ///< given when the latch has opened
   bool start_after_reset_ = false;

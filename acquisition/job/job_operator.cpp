@@ -20,30 +20,49 @@ OperatorReply refused(std::string sentence) {
   return {false, std::move(sentence)};
 }
 
+/// Whether the command begins something, for which the controller must be seen. What ends something
+/// is never kept waiting.
+bool needs_sight(OperatorCommand command) {
+  return command == OperatorCommand::start || command == OperatorCommand::resume ||
+         command == OperatorCommand::acknowledge;
+}
+
 }  // namespace
 
 void Job::hear_operator(TimePoint now) {
   for (const std::string& remark : parts_.desk.take_remarks()) note("operator", remark);
-  for (OperatorDesk::Request& request : parts_.desk.take()) {
-    may_go_on_by_itself_ = false;  // there is a person
-    OperatorReply reply;
-    try {
-      reply = obey(request.command, now);
-    } catch (const std::exception& error) {
-      fault(error.what(), now);
-      reply = refused(error.what());
-    }
-    const std::string text = std::string(to_string(request.command)) +
-                             (request.who.empty() ? "" : " by " + request.who) +
-                             (request.reason.empty() ? "" : " (" + request.reason + ")") +
-                             (reply.accepted ? ": " : " was refused: ") + reply.sentence;
-    log_info("operator", text);
-    note("operator", text);
-    if (state_ == JobState::resetting && reply.accepted && !reset_answer_) {
-      reset_answer_ = std::move(request.reply);
+  for (OperatorDesk::Request& request : parts_.desk.take()) waiting_.push_back(std::move(request));
+  std::vector<OperatorDesk::Request> unheard;
+  for (OperatorDesk::Request& request : std::exchange(waiting_, {})) {
+    // An exchange that a bad line lost is no reason to turn a person away: the next one is near.
+    if (needs_sight(request.command) && !fresh_ && !supervision_.standing_cause()) {
+      unheard.push_back(std::move(request));
     } else {
-      answers_.push_back({std::move(request.reply), std::move(reply)});
+      hear(request, now);
     }
+  }
+  waiting_ = std::move(unheard);
+}
+
+void Job::hear(OperatorDesk::Request& request, TimePoint now) {
+  may_go_on_by_itself_ = false;  // there is a person
+  OperatorReply reply;
+  try {
+    reply = obey(request.command, now);
+  } catch (const std::exception& error) {
+    fault(error.what(), now);
+    reply = refused(error.what());
+  }
+  const std::string text = std::string(to_string(request.command)) +
+                           (request.who.empty() ? "" : " by " + request.who) +
+                           (request.reason.empty() ? "" : " (" + request.reason + ")") +
+                           (reply.accepted ? ": " : " was refused: ") + reply.sentence;
+  log_info("operator", text);
+  note("operator", text);
+  if (state_ == JobState::resetting && reply.accepted && !reset_answer_) {
+    reset_answer_ = std::move(request.reply);
+  } else {
+    answers_.push_back({std::move(request.reply), std::move(reply)});
   }
 }
 

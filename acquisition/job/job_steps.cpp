@@ -117,7 +117,8 @@ std::optional<JobEvent> Job::poll_held(TimePoint now) {
     if (!is_ready(disk_answer_)) return std::nullopt;
     disk_left_layers_ = disk_answer_.get();
     // Twice the reserve, so that the job does not come back for a single layer.
-    if (disk_left_layers_ >= 2 * settings_.limits.disk_reserve_layers) return JobEvent::fit_again;
+    if (disk_left_layers_ >= std::int64_t{2} * settings_.limits.disk_reserve_layers)
+      return JobEvent::fit_again;
   } else if (now - disk_asked_at_ >= settings_.limits.disk_look) {
     disk_asked_at_ = now;
     disk_answer_ =

@@ -222,6 +222,26 @@ TEST(JobSafety, BeginsFaultedAndTouchesNothingUntilAPersonSaysSo) {
   EXPECT_EQ(bench.alarm(), "");
 }
 
+TEST(JobSafety, KeepsAStartUntilAControllerThatMissedATickAnswers) {
+  JobBench bench;
+  bench.stage.silent = true;
+  auto reply = bench.desk.post(OperatorCommand::start, "");
+  bench.tick();
+  EXPECT_FALSE(is_ready(reply));
+  bench.stage.silent = false;
+  for (int i = 0; i < 100 && !is_ready(reply); ++i) bench.tick();
+  ASSERT_TRUE(is_ready(reply));
+  EXPECT_TRUE(reply.get().accepted);
+}
+
+TEST(JobSafety, TurnsAStartAwayWhenTheControllerStaysSilent) {
+  JobBench bench;
+  bench.stage.silent = true;
+  const OperatorReply reply = bench.say(OperatorCommand::start);
+  EXPECT_FALSE(reply.accepted);
+  EXPECT_THAT(reply.sentence, HasSubstr("does not answer"));
+}
+
 TEST(JobSafety, DoesNotTakeStartForTheAcknowledgementOfARealAlarm) {
   JobBench bench;
   bench.stage.status.state = bridge::ControllerState::faulted;

@@ -217,7 +217,7 @@ TEST(Job, ComparesTheFirstFaceAfterARestartWithTheLastStoredOne) {
   JobBench bench;
   bench.start_job();
   while (bench.board.look()->committed < 2) bench.tick();
-  bench.start_daemon(bench.stage.status.sequence_started);
+  bench.start_daemon();
   bench.camera.stuck_face_um = 1020.0;
   bench.start_job();
   ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();

@@ -76,8 +76,7 @@ TEST(Supervision, ForgivesAShortExcursionOfTheTemperatureOnly) {
   EXPECT_EQ(rig.supervision.temperature_cause(), std::nullopt);
   rig.status.block_temperature_c = 3.0;
   rig.after(milliseconds(6000));
-  EXPECT_THAT(rig.supervision.temperature_cause(),
-              Optional(HasSubstr("the block is at 3.0 °C")));
+  EXPECT_THAT(rig.supervision.temperature_cause(), Optional(HasSubstr("the block is at 3.0 °C")));
 }
 
 TEST(Supervision, ForgivesAShortPeakOfTheSpindlesLoadOnly) {
