@@ -77,7 +77,12 @@ Credentials Credentials::parse(const std::string& text, const std::string& file)
     const bool taken =
         std::any_of(read.credentials_.begin(), read.credentials_.end(),
                     [&](const Credential& credential) { return credential.name == name; });
-    if (taken) fail(file, where + "the name " + name + " again: give each token its own name");
+    if (taken) {
+      fail(file, std::string(where)
+                     .append("the name ")
+                     .append(name)
+                     .append(" again: give each token its own name"));
+    }
     read.credentials_.push_back({name, digest_of(token)});
   }
   if (read.credentials_.empty()) fail(file, "holds no token: remove it to have a new one made");

@@ -43,7 +43,11 @@ TEST(Soak, MemoryFilesAndThreadsStayFlat) {
   const int layers = layers_asked_for();
   std::cout << "BIOTOMY_SOAK_LAYERS=" << layers << (layers < 5000 ? " (whole: 5000)" : "")
             << std::endl;
-  SimulatedRig rig(RigPlan{.width = 96, .height = 80, .layers = layers, .time_scale = 1000});
+  SimulatedRig rig(RigPlan{.width = 96,
+                           .height = 80,
+                           .layers = layers,
+                           .layer_thickness_um = 10,  // 5000 of them are within the twin's axes
+                           .time_scale = 1000});
   rig.start_daemon();
   ASSERT_EQ(rig.rig("start").exit_code, 0);
 
