@@ -37,21 +37,6 @@ std::string file_of(const SampleFolder& sample, std::int64_t layer) {
   return sample.layer_path(layer).lexically_relative(sample.path()).string();
 }
 
-/// What a process that was killed has left of the files that it was writing (see durable_file).
-void remove_unfinished_files(const fs::path& folder) {
-  std::vector<fs::path> unfinished;
-  std::error_code error;
-  for (auto entry = fs::recursive_directory_iterator(folder, error);
-       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (entry->path().filename().string().front() == '.') {
-      unfinished.push_back(entry->path());
-    }
-  }
-  for (const fs::path& path : unfinished) {
-    remove_folder(path);
-  }
-}
-
 bool is_same_folder(const FileDescriptor& opened, const fs::path& path) {
   struct stat a {};
   struct stat b {};
@@ -137,7 +122,7 @@ bool PartialImport::take_up(const json& asked) {
                       " was another; repeat that to go on, or give --restart to begin anew");
   }
   sample_ = SampleFolder::open(folder_ / kSampleName);
-  remove_unfinished_files(sample_->path());
+  remove_unfinished_writes(sample_->path());
   if (fs::exists(hashes_path(), error)) {
     std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
     std::erase_if(hashes, [&](const LayerHash& each) {
