@@ -132,7 +132,7 @@ const char* fault_text(std::uint16_t fault_code) {
     case 4:
       return "an axis at its limit";
     case 5:
-      return "a drive";
+      return "a drive: an axis or the spindle does not do as it was told";
     case 6:
       return "spindle overload";
     default:

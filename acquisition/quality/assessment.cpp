@@ -80,8 +80,10 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
 
   const cv::Mat brightness = brightness_of(image);
   const double mean = cv::mean(brightness)[0];
-  judgement.at_least("brightness_minimum", mean, thresholds.minimum_brightness, "too-dark",
-                     "the mean brightness is %.3f of full scale, below %.3f");
+  judgement.at_least(
+      "brightness_minimum", mean, thresholds.minimum_brightness, "too-dark",
+      "the mean brightness is %.3f of full scale, below %.3f: the lamp is dark, the exposure "
+      "too short or the camera blind");
   judgement.at_most("brightness_maximum", mean, thresholds.maximum_brightness, "too-bright",
                     "the mean brightness is %.3f of full scale, above %.3f");
   judgement.at_most("clipped_fraction", clipped_fraction(image),

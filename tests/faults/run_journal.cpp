@@ -88,10 +88,11 @@ RunJournal read_run_journal(const std::filesystem::path& journal) {
             .frame = std::stoull(row.getColumn(1).getString().substr(kTrial.size()))};
       });
   run.alarms = rows<RunJournal::Alarm>(
-      database, "SELECT at, state FROM events WHERE kind = 'alarm' ORDER BY id",
+      database, "SELECT at, state, text FROM events WHERE kind = 'alarm' ORDER BY id",
       [](SQLite::Statement& row) {
         return RunJournal::Alarm{.at = row.getColumn(0).getString(),
-                                 .state = row.getColumn(1).getString()};
+                                 .state = row.getColumn(1).getString(),
+                                 .cause = row.getColumn(2).getString()};
       });
   return run;
 }

@@ -43,6 +43,7 @@ struct RunJournal {
   struct Alarm {
     std::string at;
     std::string state;  ///< in which it came
+    std::string cause;
   };
 
   std::vector<Grind> grinds;      ///< by number

@@ -231,6 +231,11 @@ class Judge {
         until, [number](const WitnessedFrame& frame) { return frame.number == number; });
   }
 
+  /// A camera that gives an old picture may give it under its old number.
+  std::optional<std::size_t> last_spoilt_frame(const std::string& until) const {
+    return last_frame_until(until, [](const WitnessedFrame& frame) { return frame.spoilt; });
+  }
+
   void match_trials() {
     for (const RunJournal::Trial& trial : journal_.trials) {
       if (const auto match = last_frame_of(trial.frame, trial.at)) {
@@ -244,7 +249,8 @@ class Judge {
 
   void match_attempts() {
     for (const RunJournal::Attempt& attempt : journal_.attempts) {
-      const auto match = last_frame_of(attempt.frame, attempt.taken_at);
+      auto match = last_frame_of(attempt.frame, attempt.taken_at);
+      if (!match && attempt.verdict == "rejected") match = last_spoilt_frame(attempt.taken_at);
       if (!match) {
         complaints_.add("attempt ", attempt.attempt, " at layer ", attempt.layer, " shows frame ",
                         attempt.frame, ", which the twin did not take then");

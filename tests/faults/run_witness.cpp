@@ -59,7 +59,8 @@ class Reader {
                                .face_um = line.at("face_um"),
                                .column_um = line.at("column_um"),
                                .face_in_view = line.at("face_in_view"),
-                               .lamp_on = line.at("lamp_on")});
+                               .lamp_on = line.at("lamp_on"),
+                               .spoilt = line.value("spoilt", false)});
     frame_waits_ = true;
   }
 

@@ -25,6 +25,7 @@ struct WitnessedFrame {
   double column_um = 0.0;
   bool face_in_view = false;
   bool lamp_on = false;
+  bool spoilt = false;             ///< what the camera gave was not this photograph
   bool column_moved_next = false;  ///< as between two frames of a focus search
 };
 

@@ -54,17 +54,19 @@ void SimulatedRig::write_daemon_configuration() const {
                  "[lines]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "response_timeout_ms = 5000\n"  // a machine that is busy presses no e-stop
                  "[camera]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
-                 "exposure_us = 10000\n"
-                 "[job]\nsample = \"sample\"\nlayers = " +
-                 std::to_string(plan_.layers) + "\nlayer_thickness_um = " +
-                 std::to_string(plan_.layer_thickness_um) + "\npixel_um = [" +
-                 std::to_string(plan_.pixel_um) + ", " + std::to_string(plan_.pixel_um) +
+                 "exposure_us = 10000\n" +
+                 plan_.daemon_camera_settings +
+                 "[job]\nsample = \"sample\"\nlayers = " + std::to_string(plan_.layers) +
+                 "\nlayer_thickness_um = " + std::to_string(plan_.layer_thickness_um) +
+                 "\npixel_um = [" + std::to_string(plan_.pixel_um) + ", " +
+                 std::to_string(plan_.pixel_um) +
                  "]\nfirst_face_um = " + std::to_string(plan_.first_face_um) +
-                 "\nclear_ms = 1500\nsettle_ms = 5\nlamp_warm_up_ms = 5\n"
-                 "[focus]\nstart_um = " +
+                 "\nclear_ms = 1500\nsettle_ms = " + std::to_string(plan_.settle_ms) +
+                 "\nlamp_warm_up_ms = " + std::to_string(plan_.lamp_warm_up_ms) +
+                 "\n[focus]\nstart_um = " +
                  std::to_string(plan_.first_face_um - kColumnOffsetUm + kFocusGuessErrorUm) +
-                 "\n[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = 2\n" +
-                 plan_.daemon_settings);
+                 "\n[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = " +
+                 std::to_string(plan_.tick_ms) + "\n" + plan_.daemon_settings);
 }
 
 void SimulatedRig::start_twin() {

@@ -27,6 +27,10 @@ struct RigPlan {
   std::string listen = "tcp://127.0.0.1:0";  ///< of the twin's controller
   std::string twin_stage_settings = {};      ///< lines of sim.toml's [stage]
   std::string daemon_stage_settings = {};    ///< lines of rig.toml's [stage]
+  std::string daemon_camera_settings = {};   ///< lines of rig.toml's [camera]
+  int settle_ms = 5;                         ///< real time, as the next two
+  int lamp_warm_up_ms = 5;
+  int tick_ms = 2;
   /// From the controller's address to that which the daemon is given; both without it.
   std::function<std::string(const std::string&)> line_between = {};
   std::string daemon_settings = {};  ///< the end of rig.toml: more keys of [service], then tables
