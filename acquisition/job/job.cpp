@@ -410,7 +410,7 @@ std::string Job::waiting_for() const {
                  ? conditioning_.waiting_for()
                  : "waits for room on the disk: it has room for " +
                        std::to_string(disk_left_layers_) + " layers and needs " +
-                       std::to_string(std::int64_t{2} * settings_.limits.disk_reserve_layers);
+                       std::to_string(layers_needed());
     case JobState::pausing:
     case JobState::withdrawing:
     case JobState::aborting:

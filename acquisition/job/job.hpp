@@ -97,6 +97,9 @@ class Job {
   /// Temperature or disk are not as they should be, and the configuration lets the job wait.
   enum class HeldFor { temperature, disk };
   void hold(HeldFor what, const std::string& cause, TimePoint now);
+
+  /// Room for so many layers lets a job that is held for the disk go on.
+  std::int64_t layers_needed() const;
   void park_after_fault(TimePoint now);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);

@@ -171,9 +171,13 @@ void Job::go_on_by_itself(TimePoint now) {
   if (!good_since_) good_since_ = now;
   if (now - *good_since_ < kLookFor) return;
   may_go_on_by_itself_ = false;
-  const OperatorReply reply = acknowledge(now);
-  start_after_reset_ = went_on_by_itself_ = reply.accepted;
-  log_info("job", reply.accepted ? "goes on by itself after a restart" : reply.sentence);
+  try {
+    const OperatorReply reply = acknowledge(now);
+    start_after_reset_ = went_on_by_itself_ = reply.accepted;
+    log_info("job", reply.accepted ? "goes on by itself after a restart" : reply.sentence);
+  } catch (const std::exception& error) {
+    fault(error.what(), now);
+  }
 }
 
 void Job::wait_for_a_person(const std::string& why) {

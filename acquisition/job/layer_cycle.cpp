@@ -144,6 +144,7 @@ std::optional<JobEvent> LayerCycle::judge() {
     return JobEvent::frame_accepted;
   }
 
+  give_up(std::move(assessed));
   log_warning("quality", "layer " + std::to_string(layer_) + ", attempt " +
                              std::to_string(attempt_) + ": " + found.reason);
   unchanged_ = found.face_changed ? 0 : unchanged_ + 1;
@@ -176,6 +177,13 @@ std::optional<JobEvent> LayerCycle::judge() {
 void LayerCycle::remember_judgement() {
   last_judged_ = JudgedAttempt{in_hand_->layer, in_hand_->attempt, in_hand_->assessment.verdict,
                                in_hand_->assessment.slug};
+}
+
+/// The prepared file is removed where files are written: the control thread waits for no disk.
+template <typename Prepared>
+void LayerCycle::give_up(Prepared prepared) {
+  parts_.keeper.post([held = std::make_shared<Prepared>(std::move(prepared))](
+                         SampleRecords&) mutable { held.reset(); });
 }
 
 void LayerCycle::reject(const JudgedFrame& frame) {
@@ -236,11 +244,13 @@ void LayerCycle::abandon(const std::string& why) {
       let_go(std::move(frame), records);
     });
   } else if (in_hand_ && !stored_.valid()) {
-    parts_.keeper.post(
-        [frame = *in_hand_, let_go](SampleRecords& records) { let_go(frame, records); });
+    parts_.keeper.post([frame = std::move(in_hand_), let_go](SampleRecords& records) mutable {
+      let_go(*frame, records);
+      frame.reset();
+    });
   }
   in_hand_.reset();
-  assessment_ = {};
+  if (assessment_.valid()) give_up(std::move(assessment_));
 }
 
 std::string LayerCycle::waiting_for(JobState step) const {

@@ -86,6 +86,8 @@ class LayerCycle {
   void remember_judgement();
   std::optional<JobEvent> layer_stored();
   void reject(const JudgedFrame& frame);
+  template <typename Prepared>
+  void give_up(Prepared prepared);
 
   const JobSettings& settings_;
   CycleParts parts_;

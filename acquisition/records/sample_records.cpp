@@ -144,12 +144,13 @@ reconstruct::PublishLayer SampleRecords::prepare_layer(const JudgedFrame& frame)
   }
 }
 
-std::uint64_t SampleRecords::commit_layer(const JudgedFrame& frame) {
+std::uint64_t SampleRecords::commit_layer(JudgedFrame& frame) {
+  const reconstruct::PublishLayer prepared = std::exchange(frame.prepared, nullptr);
   AttemptRow row = row_of(frame);
   const std::filesystem::path path = sample_.layer_path(frame.layer);
   reconstruct::StoredLayer stored;
   try {
-    stored = frame.prepared ? frame.prepared() : prepare_layer(frame)();
+    stored = prepared ? prepared() : prepare_layer(frame)();
   } catch (const std::exception& error) {
     row.assessment.verdict = Verdict::not_stored;
     row.assessment.slug = "not-stored";

@@ -59,8 +59,8 @@ class SampleRecords {
 
   /// Stores the layer durably, prepared or not, then commits its record. Gives the bytes of the
   /// file. When the image could not be stored, the frame is recorded as `not_stored` and the error
-  /// goes on.
-  std::uint64_t commit_layer(const JudgedFrame& frame);
+  /// goes on. Either way nothing prepared is left in `frame`, to be given up by another thread.
+  std::uint64_t commit_layer(JudgedFrame& frame);
 
   /// The time as records have it: ISO 8601, UTC.
   std::string now() const;

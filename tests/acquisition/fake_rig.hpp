@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
@@ -99,7 +100,13 @@ struct FakeCamera : bridge::Camera {
 
 /// Does what is posted at once, in the caller's thread.
 struct InlineWorker : acquisition::Worker {
-  void post(std::function<void()> task) override { task(); }
+  bool at_work = false;  ///< while a task is done, and what it holds is released
+  void post(std::function<void()> task) override {
+    const bool before = std::exchange(at_work, true);
+    task();
+    task = nullptr;
+    at_work = before;
+  }
 };
 
 /// Keeps what is posted until a test lets it go on.

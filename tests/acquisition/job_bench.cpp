@@ -32,7 +32,10 @@ JobBench::JobBench() {
   surroundings.prepare_layer = [this](const std::filesystem::path& path, const cv::Mat& image,
                                       const auto&, const auto&) -> reconstruct::PublishLayer {
     if (!store_failure.empty()) throw reconstruct::SampleError(store_failure);
-    const auto held = std::make_shared<int>(++prepared);
+    const auto held = std::shared_ptr<int>(new int(++prepared), [this](const int* number) {
+      if (!worker.at_work) ++released_by_control;
+      delete number;
+    });
     last_prepared = held;
     return [this, path, image = image.clone(), held] {
       std::ofstream(path) << image.cols << " x " << image.rows;

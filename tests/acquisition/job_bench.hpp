@@ -32,6 +32,7 @@ struct JobBench {
   std::uintmax_t free_bytes = std::uintmax_t{1} << 40U;
   std::string store_failure;                        ///< not empty: writing a layer fails with this
   int prepared = 0;                                 ///< layers, stored in the end or not
+  int released_by_control = 0;                      ///< of these, not by the worker
   std::weak_ptr<int> last_prepared;                 ///< expired once it is published or given up
   std::vector<std::string> written;                 ///< names of the layer files, in order
   std::map<std::filesystem::path, cv::Mat> images;  ///< what these show

@@ -88,6 +88,7 @@ struct Session {
   UniqueFd slave;
   std::vector<Message> under_way{};
   std::array<std::optional<Bytes>, 2> held_back{};
+  std::array<bool, 2> broken_off{};  ///< a direction in which nothing comes any more
   std::optional<LinkFault> fault_of_answer{};
   bool master_gone = false;
   bool over = false;
@@ -186,6 +187,7 @@ class FaultyLink::Line {
       lose(session, direction);
       return;
     }
+    if (session.broken_off[direction]) return;
     Bytes bytes(chunk.begin(), chunk.begin() + count);
     std::optional<LinkFault> fault;
     if (direction == kToSlave) {
@@ -240,6 +242,7 @@ class FaultyLink::Line {
         return;
       case LinkFault::truncate:
         bytes.resize(std::max<std::size_t>(1, one_of(bytes.size())));
+        if (!is_serial()) break_off(session, direction);
         send(session, direction, std::move(bytes), now);
         return;
       case LinkFault::corrupt: {
@@ -255,6 +258,15 @@ class FaultyLink::Line {
         cut();
         return;
     }
+  }
+
+  /// TCP loses nothing from the middle of a stream: what was to follow the bytes that are missing
+  /// never comes. On a serial line it does, and the frames' check tells.
+  static void break_off(Session& session, Direction direction) {
+    session.broken_off[direction] = true;
+    session.held_back[direction].reset();
+    std::erase_if(session.under_way,
+                  [&](const Session::Message& message) { return message.direction == direction; });
   }
 
   void send(Session& session, Direction direction, Bytes bytes, Clock::time_point due) const {

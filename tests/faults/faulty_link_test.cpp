@@ -1,8 +1,11 @@
 #include "tests/faults/faulty_link.hpp"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +24,11 @@ struct IdleController : sim::ControllerPort {
   bool answers() const override { return true; }
   sim::ControllerReading read() override { return {}; }
   void hear_master(std::uint16_t) override {}
-  sim::Acceptance submit(const sim::Command&) override { return sim::Acceptance::taken; }
+  sim::Acceptance submit(const sim::Command& command) override {
+    highest_sequence = std::max(highest_sequence.load(), command.sequence);
+    return sim::Acceptance::taken;
+  }
+  std::atomic<std::uint32_t> highest_sequence = 0;
 };
 
 class FaultyLinkTest : public testing::TestWithParam<const char*> {
@@ -33,6 +40,8 @@ class FaultyLinkTest : public testing::TestWithParam<const char*> {
     server_ = sim::make_modbus_server(bridge::parse_endpoint(listen), {}, map, controller_);
     serving_ = std::jthread([this](const std::stop_token& stop) { server_->run(stop); });
     echo_ = map.at("echo").address;
+    heartbeat_ = map.at("daemon_heartbeat").address;
+    command_ = map.at("command").address;
     version_ = map.version();
   }
 
@@ -52,6 +61,8 @@ class FaultyLinkTest : public testing::TestWithParam<const char*> {
   std::unique_ptr<sim::ModbusServer> server_;
   std::jthread serving_;
   int echo_ = 0;
+  int heartbeat_ = 0;
+  int command_ = 0;
   int version_ = 0;
 };
 
@@ -89,6 +100,30 @@ TEST_P(FaultyLinkTest, NeverBringsTheAnswerToAnotherQuestion) {
     ++answers;
   }
   for (const std::int64_t of_a_kind : line.counts().faults) EXPECT_GT(of_a_kind, 0);
+}
+
+// A command of which the end is missing must not be completed by the next message's beginning.
+TEST_P(FaultyLinkTest, NeverBringsACommandThatNobodySent) {
+  LinkFaultPlan plan{.seed = 7, .share = {}, .longest_delay = 60ms};
+  // A command on a serial line needs several good exchanges in a row.
+  const double share = over_tcp() ? 0.45 : 0.1;
+  plan.share[static_cast<std::size_t>(LinkFault::duplicate)] = share;
+  plan.share[static_cast<std::size_t>(LinkFault::truncate)] = share;
+  const FaultyLink line(server_->address(), folder_.path(), plan);
+  bridge::ModbusLink link(settings(line.endpoint()));
+  const auto write = [&](int address, std::initializer_list<std::uint16_t> registers) {
+    try {
+      link.write(address, std::vector<std::uint16_t>(registers));
+    } catch (const bridge::DeviceError&) {
+      std::this_thread::sleep_for(5ms);  // a line that is left alone for a moment
+    }
+  };
+  for (std::uint16_t number = 1; number <= 250; ++number) {
+    write(heartbeat_, {number});
+    write(command_, {3, 0, 0, 0, 0, 0, number});  // retract; its number is the last two registers
+    ASSERT_LE(controller_.highest_sequence, number) << line.counts().text();
+  }
+  EXPECT_GT(controller_.highest_sequence, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Over, FaultyLinkTest, testing::Values("tcp", "rtu"),

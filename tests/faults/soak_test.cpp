@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -29,13 +30,16 @@ int layers_asked_for() {
   return text != nullptr ? std::max(30, std::atoi(text)) : kDefaultLayers;
 }
 
-/// The most of each that was held in a part of the run.
-struct Peak {
-  ProcessResources most;
-  void add(const ProcessResources& held) {
-    most.resident_kib = std::max(most.resident_kib, held.resident_kib);
-    most.open_files = std::max(most.open_files, held.open_files);
-    most.threads = std::max(most.threads, held.threads);
+/// What was held in a part of the run: of memory the most; of files and threads, which come and go
+/// with each band of the volume, the least, below which a leak would not let them fall again.
+struct Held {
+  std::int64_t resident_kib = 0;
+  std::int64_t open_files = std::numeric_limits<std::int64_t>::max();
+  std::int64_t threads = std::numeric_limits<std::int64_t>::max();
+  void add(const ProcessResources& now) {
+    resident_kib = std::max(resident_kib, now.resident_kib);
+    open_files = std::min(open_files, now.open_files);
+    threads = std::min(threads, now.threads);
   }
 };
 
@@ -51,7 +55,7 @@ TEST(Soak, MemoryFilesAndThreadsStayFlat) {
   rig.start_daemon();
   ASSERT_EQ(rig.rig("start").exit_code, 0);
 
-  std::vector<Peak> thirds(3);
+  std::vector<Held> thirds(3);
   std::int64_t committed = 0;
   auto last_layer = steady_clock::now();
   while (true) {
@@ -68,14 +72,14 @@ TEST(Soak, MemoryFilesAndThreadsStayFlat) {
   }
   EXPECT_EQ(rig.status().at("committed"), layers);
 
-  for (const Peak& peak : thirds) {
-    std::cout << peak.most.resident_kib << " KiB, " << peak.most.open_files << " files, "
-              << peak.most.threads << " threads at most in a third of the run\n";
+  for (const Held& held : thirds) {
+    std::cout << "in a third of the run: at most " << held.resident_kib << " KiB, at least "
+              << held.open_files << " files, " << held.threads << " threads\n";
   }
-  EXPECT_LE(thirds[2].most.resident_kib, thirds[1].most.resident_kib + kSlackKib);
-  // A status that is asked for, a band that is written: a file more or less.
-  EXPECT_LE(thirds[2].most.open_files, thirds[1].most.open_files + 3);
-  EXPECT_LE(thirds[2].most.threads, thirds[1].most.threads);
+  EXPECT_LE(thirds[2].resident_kib, thirds[1].resident_kib + kSlackKib);
+  // A viewer's connection or two may be open whenever one looks.
+  EXPECT_LE(thirds[2].open_files, thirds[1].open_files + 3);
+  EXPECT_LE(thirds[2].threads, thirds[1].threads + 1);
 }
 
 }  // namespace

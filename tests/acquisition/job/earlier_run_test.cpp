@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/job/job.hpp"
+#include "firmware_bridge/device_error.hpp"
 #include "tests/acquisition/job_bench.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -128,6 +129,17 @@ TEST_F(CrashedDaemon, LeavesItToTheOperatorWhoSpeaksFirst) {
   bench.say(OperatorCommand::pause);
   bench.tick(1000);
   EXPECT_EQ(bench.state(), JobState::faulted);
+}
+
+TEST_F(CrashedDaemon, IsFaultedWhenTheControllerDoesNotTakeTheReset) {
+  bench.stage.on_command = [](const bridge::StageCommand& command) {
+    if (command.action != bridge::StageAction::reset_fault) return;
+    throw bridge::DeviceError(bridge::DeviceError::Kind::refused, "stage: no such command");
+  };
+  bench.start_daemon();
+  EXPECT_NO_THROW(bench.tick(500));
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("no such command"));
 }
 
 TEST_F(CrashedDaemon, StopsWhenJournalAndControllerDisagree) {

@@ -152,6 +152,23 @@ TEST(JobHold, OfAFullDiskGoesOnByItselfWhenThereIsRoom) {
   EXPECT_EQ(bench.stage.ground().size(), 5U);
 }
 
+TEST(JobHold, OfAFullDiskWaitsForAsMuchRoomAsThePreflightAsksFor) {
+  JobBench bench;
+  bench.settings.limits.disk_resumes = true;
+  bench.settings.plan.layers = 60;
+  bench.start_daemon();
+  bench.start_job();
+  while (bench.board.look()->committed < 1) bench.tick();
+  bench.free_bytes = kNoRoom;
+  ASSERT_TRUE(bench.reach(JobState::held)) << bench.alarm();
+  bench.free_bytes = std::uintmax_t{45} * 2 * 96 * 64 * 3;  // 45 layers, and 58 are to come
+  bench.tick(1000);
+  EXPECT_EQ(bench.state(), JobState::held) << bench.alarm();
+  EXPECT_THAT(bench.board.look()->waiting_for, HasSubstr("room for 45 layers and needs 58"));
+  bench.free_bytes = kRoom;
+  EXPECT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+}
+
 TEST(JobPause, TellsWhyWhenNobodyAskedForIt) {
   JobBench bench;
   bench.start_job();

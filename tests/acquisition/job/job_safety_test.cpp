@@ -47,6 +47,7 @@ TEST_P(JobInEveryState, StopsTheWheelWhenTheEstopIsPressed) {
   EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
   EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("layers"), 1);
+  EXPECT_EQ(bench.released_by_control, 0) << "the control thread would have waited for the disk";
 }
 
 std::string state_name(const testing::TestParamInfo<JobState>& info) {

@@ -153,6 +153,7 @@ TEST(Job, PreparesALayerWhileItIsAssessedAndGivesUpThatOfARejectedFrame) {
   EXPECT_EQ(bench.prepared, 2);
   ASSERT_TRUE(bench.reach(JobState::capturing));
   EXPECT_TRUE(bench.last_prepared.expired());
+  EXPECT_EQ(bench.released_by_control, 0) << "the control thread would have waited for the disk";
   EXPECT_EQ(bench.written.size(), 1U);
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.prepared, 6);
