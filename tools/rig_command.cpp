@@ -163,8 +163,11 @@ void print_status(const json& status) {
   const std::string pause_cause = status.value("pause_cause", "");
   if (!pause_cause.empty()) print_row("paused by", pause_cause);
   if (status.at("alarm").is_object()) {
-    print_row("alarm", status.at("alarm").at("cause").get<std::string>() + " (since " +
-                           status.at("alarm").at("since").get<std::string>() + ")");
+    const json& alarm = status.at("alarm");
+    const std::string in_state = alarm.value("state", "faulted");
+    print_row("alarm", alarm.at("cause").get<std::string>() + " (since " +
+                           alarm.at("since").get<std::string>() +
+                           (in_state == "faulted" ? "" : ", while " + in_state) + ")");
   }
   print_row("job",
             status.at("job").get<std::string>() + " in " + status.at("sample").get<std::string>());

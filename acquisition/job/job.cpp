@@ -86,7 +86,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       conditioning_(settings_.limits) {
   commands_.raise_to(earlier.last_sequence);
   alarm_ = Alarm{"the daemon has just started: look at the rig, then acknowledge",
-                 utc_text(surroundings_.wall_clock())};
+                 utc_text(surroundings_.wall_clock()), state_};
   publish();
 }
 
@@ -301,7 +301,7 @@ void Job::enter(JobState state, TimePoint now) {
 
 void Job::fault(const std::string& cause, TimePoint now) {
   log_error(kComponent, std::string("stopped while ") + to_string(state_) + ": " + cause);
-  alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock())};
+  alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock()), state_};
   note("alarm", cause);
   pause_cause_.clear();
   state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);

@@ -17,7 +17,8 @@ namespace biotomy::acquisition {
 
 struct Alarm {
   std::string cause;
-  std::string since;  ///< ISO 8601, UTC
+  std::string since;                   ///< ISO 8601, UTC
+  JobState state = JobState::faulted;  ///< in which it came; `faulted`: it is the start's latch
 };
 
 /// What the daemon shows of itself: a snapshot of one tick.

@@ -72,7 +72,11 @@ std::string dumped(const json& value) {
 
 std::string status_json(const JobStatus& status) {
   json alarm = nullptr;
-  if (status.alarm) alarm = {{"cause", status.alarm->cause}, {"since", status.alarm->since}};
+  if (status.alarm) {
+    alarm = {{"cause", status.alarm->cause},
+             {"since", status.alarm->since},
+             {"state", to_string(status.alarm->state)}};
+  }
   return dumped({{"version", BIOTOMY_VERSION},
                  {"state", to_string(status.state)},
                  {"waiting_for", status.waiting_for},

@@ -31,7 +31,9 @@ class Page {
 
   void alarm(const Alarm& alarm) {
     text_ << "<p class=\"alarm\" role=\"alert\">" << html_escaped(alarm.cause) << "<br>since "
-          << html_escaped(alarm.since) << "</p>\n";
+          << html_escaped(alarm.since);
+    if (alarm.state != JobState::faulted) text_ << ", while " << to_string(alarm.state);
+    text_ << "</p>\n";
   }
 
   void begin_table() { text_ << "<table>\n"; }

@@ -1,5 +1,4 @@
 #include <chrono>
-#include <fstream>
 #include <ostream>
 #include <string>
 #include <thread>
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/killed_run.hpp"
+#include "tests/integration/witness_lines.hpp"
 
 namespace biotomy::tests {
 namespace {
@@ -40,10 +40,9 @@ bool holds(const nlohmann::json& line, const nlohmann::json& facts) {
 }
 
 bool has_come(const SimulatedRig& rig, const WitnessedMoment& moment) {
-  std::ifstream log(rig.witness());
   int layer = 0;
   int seen = 0;
-  for (std::string text; std::getline(log, text);) {
+  for (const std::string& text : witness_lines(rig.witness())) {
     const nlohmann::json line = nlohmann::json::parse(text);
     if (line.at("event") == "command_started" && line.at("action") == "grind_pass") ++layer;
     if (layer == moment.layer && line.at("event") == moment.event && holds(line, moment.facts)) {

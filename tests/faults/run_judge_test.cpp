@@ -103,12 +103,24 @@ class MadeUpRun {
 
   void move_column() { witness("command_started", {{"sequence", 0}, {"action", "move_column"}}); }
 
-  void take_frame(std::int64_t layer, double column_um = 650.0) {
+  void take_frame(std::int64_t layer, double column_um = 650.0, bool spoilt = false) {
     witness("capture", {{"number", ++frame_},
                         {"face_um", face_um(layer) + 0.4},
                         {"column_um", column_um},
                         {"face_in_view", true},
-                        {"lamp_on", lamp_on_}});
+                        {"lamp_on", lamp_on_},
+                        {"spoilt", spoilt}});
+  }
+
+  /// Of a picture that came under a number which is not that of the last capture.
+  void reject(std::int64_t layer, std::uint64_t frame) {
+    AttemptRow row;
+    row.layer = layer;
+    row.attempt = ++attempt_;
+    row.taken_at = now();
+    row.frame_sequence = frame;
+    row.assessment.verdict = Verdict::rejected;
+    journal_.record_attempt(row);
   }
 
   void commit(std::int64_t layer, std::int64_t shown) {
@@ -117,7 +129,7 @@ class MadeUpRun {
         path, photograph(shown, ++noise_), {layer, sample_.description().cuboid.spacing}, {});
     AttemptRow row;
     row.layer = layer;
-    row.attempt = 1;
+    row.attempt = ++attempt_;
     row.taken_at = now();
     row.frame_sequence = static_cast<std::uint64_t>(frame_);
     row.file = std::filesystem::relative(path, sample_.path());
@@ -167,6 +179,7 @@ class MadeUpRun {
   std::uint32_t sequence_ = 0;
   int frame_ = 0;
   int noise_ = 0;
+  int attempt_ = 0;
   bool lamp_on_ = true;
   std::vector<Killed> kills_;
 };
@@ -329,6 +342,27 @@ TEST_F(RunJudge, FindsAPhotographOfAnotherFace) {
   run.commit(2);
   run.make_from(3);
   EXPECT_THAT(verdict(), ElementsAre("the image of layer 2 was taken of the face at 1000.4 µm"));
+}
+
+TEST_F(RunJudge, TakesARejectedPictureUnderAnyNumberForASpoiltFrame) {
+  run.make(1);
+  run.grind(2);
+  run.take_frame(2, 650.0, true);
+  run.reject(2, 77);
+  run.take_frame(2);
+  run.commit(2);
+  run.make_from(3);
+  EXPECT_THAT(verdict(), IsEmpty());
+}
+
+TEST_F(RunJudge, FindsARejectedPictureThatTheTwinDidNotSpoil) {
+  run.make(1);
+  run.grind(2);
+  run.reject(2, 77);
+  run.take_frame(2);
+  run.commit(2);
+  run.make_from(3);
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("shows frame 77, which the twin did not take")));
 }
 
 TEST_F(RunJudge, FindsAFrameWithoutARecord) {

@@ -1,10 +1,11 @@
 #include "tests/faults/run_witness.hpp"
 
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "tests/integration/witness_lines.hpp"
 
 namespace biotomy::tests {
 
@@ -85,10 +86,10 @@ class Reader {
 }  // namespace
 
 Witness read_witness(const std::filesystem::path& log) {
-  std::ifstream in(log);
-  if (!in) throw std::runtime_error("there is no witness log " + log.string());
+  if (!std::filesystem::exists(log))
+    throw std::runtime_error("there is no witness log " + log.string());
   Reader reader;
-  for (std::string line; std::getline(in, line);) {
+  for (const std::string& line : witness_lines(log)) {
     try {
       reader.take(json::parse(line));
     } catch (const json::exception& error) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
+
+#include "tests/integration/witness_lines.hpp"
 
 namespace biotomy::tests {
 
@@ -32,8 +33,7 @@ milliseconds moment(const std::string& utc) {
 std::optional<milliseconds> wheel_told_to_stop(const std::filesystem::path& witness,
                                                const std::string& since, const std::string& until,
                                                double time_scale) {
-  std::ifstream log(witness);
-  for (std::string text; std::getline(log, text);) {
+  for (const std::string& text : witness_lines(witness)) {
     const nlohmann::json line = nlohmann::json::parse(text);
     if (line.at("event") != "spindle_stopped" || line.at("time") < since) continue;
     const std::chrono::duration<double> run_down(line.at("run_down_s").get<double>() / time_scale);

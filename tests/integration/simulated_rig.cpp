@@ -8,6 +8,7 @@
 
 #include "firmware_bridge/wire/checked_table.hpp"
 #include "sim/service/configuration.hpp"
+#include "tests/integration/witness_lines.hpp"
 
 namespace biotomy::tests {
 
@@ -139,8 +140,7 @@ nlohmann::json SimulatedRig::status() {
 
 std::vector<nlohmann::json> SimulatedRig::witnessed(const std::string& event) const {
   std::vector<nlohmann::json> events;
-  std::ifstream log(witness());
-  for (std::string line; std::getline(log, line);) {
+  for (const std::string& line : witness_lines(witness())) {
     nlohmann::json entry = nlohmann::json::parse(line);
     if (entry.at("event") == event) events.push_back(std::move(entry));
   }

@@ -71,7 +71,7 @@ TEST_F(ApiTest, ShowsTheStatus) {
   status.waiting_for = "waits for the wheel";
   status.committed = 41;
   status.layers = 1000;
-  status.alarm = Alarm{"the door is open", "2026-11-22T03:04:05.678Z"};
+  status.alarm = Alarm{"the door is open", "2026-11-22T03:04:05.678Z", JobState::grinding};
   status.stage = bridge::StageStatus{};
   board.publish(status);
   const ApiResponse response = get("/api/v1/status");
@@ -80,6 +80,7 @@ TEST_F(ApiTest, ShowsTheStatus) {
   EXPECT_EQ(document.at("state"), "grinding");
   EXPECT_EQ(document.at("committed"), 41);
   EXPECT_EQ(document.at("alarm").at("cause"), "the door is open");
+  EXPECT_EQ(document.at("alarm").at("state"), "grinding");
   EXPECT_EQ(document.at("stage").at("positions_um").at("feed"), 0.0);
   EXPECT_EQ(document.at("version"), BIOTOMY_VERSION);
 }
