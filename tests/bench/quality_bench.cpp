@@ -12,6 +12,7 @@
 
 #include "acquisition/quality/face_change.hpp"
 #include "acquisition/quality/face_print.hpp"
+#include "acquisition/quality/frame_measures.hpp"
 #include "acquisition/quality/frame_rows.hpp"
 
 namespace {
@@ -47,6 +48,14 @@ void find_rows(benchmark::State& state, int type) {
   count_pixels(state);
 }
 
+void measure(benchmark::State& state, int type) {
+  const cv::Mat image = frame(1, 2, type);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(measure_frame(image));
+  }
+  count_pixels(state);
+}
+
 /// With its rows.
 void take_print(benchmark::State& state, int type) {
   const cv::Mat image = frame(1, 2, type);
@@ -70,6 +79,8 @@ void compare(benchmark::State& state, std::uint64_t depth) {
 int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("rows/8", find_rows, CV_8UC3)->UseRealTime();
   benchmark::RegisterBenchmark("rows/16", find_rows, CV_16UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("measures/8", measure, CV_8UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("measures/16", measure, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("print/8", take_print, CV_8UC3)->UseRealTime();
   benchmark::RegisterBenchmark("print/16", take_print, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("compare/same", compare, 1)->UseRealTime();
