@@ -14,10 +14,23 @@ constexpr double kLeastSigma = 0.05;
 /// Above it the picture is blurred on a coarser grid, where the same blur costs less.
 constexpr double kWideSigma = 4.0;
 
+/// The discrete Gaussian exp(-t)·I_n(t), t = σ² (Lindeberg, "Scale-space for discrete signals",
+/// IEEE PAMI 12 (1990) 234-254). Its variance is σ² however small that is; a Gaussian sampled at
+/// whole pixels would blur a third as much as it should at σ = 0.36.
+cv::Mat discrete_gaussian(double sigma) {
+  const double variance = sigma * sigma;
+  const int radius = std::max(1, static_cast<int>(std::ceil(3.0 * sigma))) + 1;
+  cv::Mat kernel(2 * radius + 1, 1, CV_64F);
+  for (int n = -radius; n <= radius; ++n) {
+    kernel.at<double>(n + radius) =
+        std::exp(-variance) * std::cyl_bessel_i(static_cast<double>(std::abs(n)), variance);
+  }
+  return kernel / cv::sum(kernel)[0];
+}
+
 void blur_directly(cv::Mat& picture, double sigma) {
-  const int radius = std::max(1, static_cast<int>(std::ceil(3.0 * sigma)));
-  cv::GaussianBlur(picture, picture, {2 * radius + 1, 2 * radius + 1}, sigma, sigma,
-                   cv::BORDER_REPLICATE);
+  const cv::Mat kernel = discrete_gaussian(sigma);
+  cv::sepFilter2D(picture, picture, -1, kernel, kernel, {-1, -1}, 0.0, cv::BORDER_REPLICATE);
 }
 
 }  // namespace

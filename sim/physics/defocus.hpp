@@ -21,7 +21,8 @@ struct Lens {
 double blur_sigma_um(const Lens& lens, double defocus_um);
 
 /// Blurs a CV_32FC3 picture in place by a Gaussian of `sigma` pixels; its time grows little with
-/// sigma. Nothing below a twentieth of a pixel.
+/// sigma. Nothing below a twentieth of a pixel. Up to 4 pixels it leaves exp(-σ²·(1 - cos 2πf)) of
+/// the contrast of f cycles per pixel: exp(-σ²) at half the Nyquist frequency.
 void blur(cv::Mat& picture, double sigma);
 
 /// Smears a CV_32FC3 picture in place along its rows, as movement by `pixels` during the exposure

@@ -1,6 +1,8 @@
 #include "sim/physics/defocus.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -39,8 +41,28 @@ double measured_sigma(double sigma) {
 }
 
 TEST(Defocus, BlursByTheSigmaAskedForWhicheverWayItIsDone) {
-  for (const double sigma : {0.8, 2.0, 3.9, 4.1, 8.0, 15.0}) {
+  for (const double sigma : {0.1, 0.25, 0.36, 0.5, 0.8, 2.0, 3.9, 4.1, 8.0, 15.0}) {
     EXPECT_NEAR(measured_sigma(sigma), sigma, 0.08 * sigma) << sigma;
+  }
+}
+
+/// The part of a wave's amplitude that is left; the wave has four pixels a period.
+double contrast_left(double sigma) {
+  constexpr std::array<float, 4> kWave{1, 0, -1, 0};
+  cv::Mat picture(64, 64, CV_32FC3);
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const float level = kWave[static_cast<std::size_t>(x % 4)];
+      picture.at<cv::Vec3f>(y, x) = {level, level, level};
+    }
+  }
+  blur(picture, sigma);
+  return picture.at<cv::Vec3f>(32, 32)[0];
+}
+
+TEST(Defocus, TakesTheStatedContrastAtHalfTheNyquistFrequency) {
+  for (const double sigma : {0.1, 0.25, 0.36, 0.5, 0.8, 1.2}) {
+    EXPECT_NEAR(contrast_left(sigma), std::exp(-sigma * sigma), 0.005) << sigma;
   }
 }
 
