@@ -15,7 +15,7 @@ struct FocusSettings {
   int shifts = 8;                      ///< a sweep with its peak at the rim moves on so often
   bridge::Micrometres backlash{50.0};  ///< every position is approached from below by so much
   int every_layers = 10;               ///< a search at the latest after so many layers
-  double search_below_ratio = 0.85;    ///< and when the sharpness fell below this part of the peak
+  double search_below_ratio = 0.95;    ///< and when the sharpness fell below this part of the peak
 };
 
 /// Looks for the camera column's position of greatest sharpness: a sweep of `points` positions

@@ -85,7 +85,7 @@ std::optional<JobEvent> Job::poll_recovering() {
       settings_,
       CycleParts{commands_, parts_.lines, parts_.camera, parts_.worker, *keeper_, *feed_},
       CycleStart{findings_.journal, identity_->column, findings_.camera, findings_.disk_left_layers,
-                 findings_.faces});
+                 findings_.recalled});
   return JobEvent::agreed;
 }
 

@@ -25,7 +25,8 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
   expectation_.width = start.camera.width;
   expectation_.height = start.camera.height;
   expectation_.type = settings.plan.bits == 16 ? CV_16UC3 : CV_8UC3;
-  expectation_.faces = start.faces;
+  expectation_.faces = start.recalled.faces;
+  expectation_.sharpness = start.recalled.sharpness;
   if (const auto& focus = start.journal.last_focus) {
     focus_memory_.remember(focus->layer, {focus->column, focus->sharpness});
   }
@@ -123,7 +124,7 @@ void LayerCycle::begin_capture(const bridge::StageStatus& status) {
 }
 
 void LayerCycle::begin_assessment() {
-  expectation_.focus_sharpness = focus_memory_.peak_sharpness();
+  expectation_.layer = layer_;
   expectation_.asked_at = in_hand_->asked_at;
   assessment_ = parts_.keeper.ask([frame = in_hand_, expectation = expectation_,
                                    thresholds = settings_.thresholds](SampleRecords& records) {
@@ -201,8 +202,9 @@ void LayerCycle::begin_storing() {
 std::optional<JobEvent> LayerCycle::layer_stored() {
   const Stored stored = stored_.get();
   disk_left_layers_ = stored.disk_left_layers;
-  focus_memory_.accepted(in_hand_->assessment.sharpness_ratio);
+  if (const auto& ratio = in_hand_->assessment.sharpness_to_peak) focus_memory_.accepted(*ratio);
   expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
+  expectation_.sharpness.accept(in_hand_->assessment.measures);
   last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
   in_hand_.reset();
   parts_.feed.offer(layer_);

@@ -15,7 +15,7 @@
 #include "acquisition/job/judged_attempt.hpp"
 #include "acquisition/job/stage_commands.hpp"
 #include "acquisition/job/worker.hpp"
-#include "acquisition/quality/face_record.hpp"
+#include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/records/record_keeper.hpp"
 #include "acquisition/records/volume_feed.hpp"
 #include "firmware_bridge/camera/camera.hpp"
@@ -39,7 +39,7 @@ struct CycleStart {
   bridge::AxisLimits column;
   bridge::CameraDescription camera;
   std::int64_t disk_left_layers = 0;
-  FaceRecord faces{};
+  RecalledFaces recalled{};
 };
 
 /// The last layer that was committed, for the status.

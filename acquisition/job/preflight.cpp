@@ -123,8 +123,8 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
                    " more layers and the job needs " + std::to_string(layers_to_do) +
                    ": make room, or set safety.disk_for_whole_job to false");
   }
-  findings.faces = recall_faces(findings.records->sample(), findings.journal.last_committed,
-                                surroundings.read_layer);
+  findings.recalled = recall_faces(findings.records->sample(), findings.journal.last_committed,
+                                   surroundings.read_layer);
   return findings;
 }
 

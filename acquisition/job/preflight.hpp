@@ -7,7 +7,7 @@
 
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/surroundings.hpp"
-#include "acquisition/quality/face_record.hpp"
+#include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/records/sample_records.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/stage/stage.hpp"
@@ -20,7 +20,7 @@ struct PreflightFindings {
   std::shared_ptr<SampleRecords> records;
   JournalSummary journal;
   std::int64_t disk_left_layers = 0;
-  FaceRecord faces;  ///< of the layers that are committed
+  RecalledFaces recalled;  ///< of the layers that are committed
 };
 
 /// Why this stage cannot do this job; nothing when it can.

@@ -1,43 +1,35 @@
 #include "acquisition/quality/assessment.hpp"
 
-#include <array>
-#include <atomic>
-#include <cstdint>
-#include <limits>
+#include <cstddef>
 #include <string>
 
 #include <opencv2/core.hpp>
-#include <opencv2/core/utility.hpp>
 
 #include "acquisition/quality/face_judgement.hpp"
 #include "acquisition/quality/judgement.hpp"
-#include "acquisition/quality/sharpness.hpp"
+#include "acquisition/quality/sharpness_judgement.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
-template <typename Sample>
-std::int64_t count_clipped(const Sample* pixels, int count) {
-  constexpr Sample kFull = std::numeric_limits<Sample>::max();
-  std::int64_t clipped = 0;
-  for (int i = 0; i < count; ++i, pixels += 3) {
-    clipped += static_cast<int>(pixels[0] == kFull || pixels[1] == kFull || pixels[2] == kFull);
-  }
-  return clipped;
-}
+struct Light {
+  double brightness = 0.0;  ///< mean, of full scale; what is clipped counts as full
+  double clipped = 0.0;     ///< part of the pixels
+};
 
-/// The part of pixels in which at least one colour is at full scale.
-double clipped_fraction(const cv::Mat& image) {
-  std::atomic<std::int64_t> clipped{0};
-  cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
-    std::int64_t found = 0;
-    for (int y = rows.start; y < rows.end; ++y) {
-      found += image.depth() == CV_16U ? count_clipped(image.ptr<std::uint16_t>(y), image.cols)
-                                       : count_clipped(image.ptr<std::uint8_t>(y), image.cols);
-    }
-    clipped += found;
-  });
-  return static_cast<double>(clipped) / static_cast<double>(image.total());
+Light light_of(const FrameMeasures& measures) {
+  Light light;
+  double area = 0.0;
+  for (int i = 0; i < measures.grid.count(); ++i) {
+    const TileMeasures& tile = measures.tiles[static_cast<std::size_t>(i)];
+    const double pixels = measures.grid.tile(i).area();
+    area += pixels;
+    light.clipped += pixels * tile.clipped;
+    light.brightness += pixels * ((1.0 - tile.clipped) * tile.brightness() + tile.clipped);
+  }
+  light.clipped /= area;
+  light.brightness /= area;
+  return light;
 }
 
 std::string description(int width, int height, int type) {
@@ -78,24 +70,19 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   }
   judge_moment(frame, expectation, judgement);
 
-  const cv::Mat brightness = brightness_of(image);
-  const double mean = cv::mean(brightness)[0];
+  Assessment& result = judgement.result();
+  result.measures = std::make_shared<const FrameMeasures>(measure_frame(image));
+  const Light light = light_of(*result.measures);
   judgement.at_least(
-      "brightness_minimum", mean, thresholds.minimum_brightness, "too-dark",
+      "brightness_minimum", light.brightness, thresholds.minimum_brightness, "too-dark",
       "the mean brightness is %.3f of full scale, below %.3f: the lamp is dark, the exposure "
       "too short or the camera blind");
-  judgement.at_most("brightness_maximum", mean, thresholds.maximum_brightness, "too-bright",
-                    "the mean brightness is %.3f of full scale, above %.3f");
-  judgement.at_most("clipped_fraction", clipped_fraction(image),
-                    thresholds.maximum_clipped_fraction, "clipped",
-                    "%.4f of the pixels are at full scale, more than %.4f");
+  judgement.at_most("brightness_maximum", light.brightness, thresholds.maximum_brightness,
+                    "too-bright", "the mean brightness is %.3f of full scale, above %.3f");
+  judgement.at_most("clipped_fraction", light.clipped, thresholds.maximum_clipped_fraction,
+                    "clipped", "%.4f of the pixels are at full scale, more than %.4f");
 
-  Assessment& result = judgement.result();
-  result.sharpness = sharpness_of_brightness(brightness);
-  result.sharpness_ratio =
-      expectation.focus_sharpness > 0.0 ? result.sharpness / expectation.focus_sharpness : 0.0;
-  judgement.at_least("sharpness_ratio", result.sharpness_ratio, thresholds.minimum_sharpness_ratio,
-                     "blurred", "the sharpness is %.3f of the focus peak's, below %.3f");
+  judge_sharpness(expectation.sharpness, expectation.layer, thresholds, judgement);
 
   result.face = std::make_shared<const FacePrint>(take_face_print(image));
   judge_rows(expectation.faces, thresholds, judgement);

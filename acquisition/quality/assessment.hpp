@@ -10,6 +10,8 @@
 #include "acquisition/quality/face_change.hpp"
 #include "acquisition/quality/face_print.hpp"
 #include "acquisition/quality/face_record.hpp"
+#include "acquisition/quality/frame_measures.hpp"
+#include "acquisition/quality/sharpness_record.hpp"
 #include "firmware_bridge/camera/frame.hpp"
 
 namespace biotomy::acquisition {
@@ -37,8 +39,9 @@ struct Assessment {
   std::string slug;    ///< the reason as part of a file name: "blurred"; "good" when accepted
   std::string reason;  ///< the reason as a sentence
   std::vector<Metric> metrics;
-  double sharpness = 0.0;
-  double sharpness_ratio = 0.0;  ///< to the focus peak it was compared with
+  double sharpness = 0.0;  ///< see sharpness_comparison.hpp; 0 without detail
+  /// To the last focus search's sharpest frame, whatever decided; nothing without one.
+  std::optional<double> sharpness_to_peak;
 
   /// False when it is a picture of something else than the face in work: of the face before, of an
   /// earlier moment, of a part only, or not of the sample's size. Such a frame is never the layer,
@@ -46,13 +49,17 @@ struct Assessment {
   bool shows_the_face = true;
   /// False when a fresh picture shows still the last accepted layer's face.
   bool face_changed = true;
-  FaceChange face_change;                 ///< from the last accepted layer's face
-  std::shared_ptr<const FacePrint> face;  ///< none when the frame is not of the sample's size
+  FaceChange face_change;  ///< from the last accepted layer's face
+  // None of these when the frame is not of the sample's size.
+  std::shared_ptr<const FacePrint> face;
+  std::shared_ptr<const FrameMeasures> measures;
 };
 
 /// Thresholds of the metrics, each under the metric's name.
 struct QualityThresholds {
-  double minimum_sharpness_ratio = 0.7;
+  double minimum_sharpness_ratio = 0.92;
+  double minimum_sharpness_to_record = 0.75;  ///< after a search of the same layer
+  double minimum_sharpness_anisotropy = 0.92;
   double minimum_brightness = 0.05;        ///< mean, of full scale
   double maximum_brightness = 0.95;        ///< mean, of full scale
   double maximum_clipped_fraction = 0.05;  ///< of pixels with a colour at full scale
@@ -68,12 +75,13 @@ struct QualityThresholds {
 struct FrameExpectation {
   int width = 0;
   int height = 0;
-  int type = 0;                  ///< CV_8UC3 or CV_16UC3
-  double focus_sharpness = 0.0;  ///< at the peak of this layer's sweep, or of the last one
+  int type = 0;                                    ///< CV_8UC3 or CV_16UC3
+  std::int64_t layer = 0;                          ///< in work
   std::optional<std::uint64_t> previous_sequence;  ///< of the frame before
   std::chrono::nanoseconds previous_timestamp{0};  ///< of the frame before; 0 is unknown
   std::chrono::nanoseconds asked_at{0};            ///< the camera, by its clock; 0 is unknown
   FaceRecord faces{};                              ///< the faces and frames before
+  SharpnessRecord sharpness{};
 };
 
 /// Judges one frame. A frame that is of another size or kind than the sample's is rejected before

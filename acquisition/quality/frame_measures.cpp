@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kClipped = std::numeric_limits<float>::quiet_NaN();  ///< and all that is made of it
 constexpr double kSobelNoise = 3.0 / 16.0;  ///< the sum of the squared weights, see the header
+constexpr double kCurvatureNoise = 6.0;     ///< likewise of 1 -2 1
 constexpr double kImmerkaerNoise = 36.0;    ///< likewise of (1 -2 1) × (1 -2 1)
 
 /// How far a tile's gradients reach beyond it, in its own pixels: one pixel of the coarsest level
@@ -96,8 +97,60 @@ void halve(const Plane& from, Plane& to) {
   }
 }
 
-/// The energy of the gradient over an inner part of a plane, with the noise still in it. A gradient
-/// counts when all that it is made of are numbers.
+/// All that is measured of the picture itself, with the noise still in it.
+struct FullResolution {
+  DetailEnergy curvature;
+  DetailEnergy gradient;
+  double noise_variance = 0.0;
+};
+
+/// Over an inner part of a plane. A pixel counts when all its neighbours are numbers.
+FullResolution look_closely(const Plane& plane, const cv::Rect& part) {
+  Mean xx;
+  Mean yy;
+  Mean x;
+  Mean y;
+  Mean noise;
+  for (int row = part.y; row < part.br().y; ++row) {
+    const float* above = plane.row(row - 1);
+    const float* here = plane.row(row);
+    const float* below = plane.row(row + 1);
+    float sum_xx = 0.0F;
+    float sum_yy = 0.0F;
+    float sum_x = 0.0F;
+    float sum_y = 0.0F;
+    float sum_noise = 0.0F;
+    float count = 0.0F;
+#pragma omp simd reduction(+ : sum_xx, sum_yy, sum_x, sum_y, sum_noise, count)
+    for (int i = part.x; i < part.br().x; ++i) {
+      const float beside = here[i - 1] + here[i + 1];
+      const float over = above[i] + below[i];
+      const float corners = above[i - 1] + above[i + 1] + below[i - 1] + below[i + 1];
+      const float cxx = beside - 2.0F * here[i];
+      const float cyy = over - 2.0F * here[i];
+      const float gx = 0.125F * ((above[i + 1] + 2.0F * here[i + 1] + below[i + 1]) -
+                                 (above[i - 1] + 2.0F * here[i - 1] + below[i - 1]));
+      const float gy = 0.125F * ((below[i - 1] + 2.0F * below[i] + below[i + 1]) -
+                                 (above[i - 1] + 2.0F * above[i] + above[i + 1]));
+      const float checkered = corners - 2.0F * (beside + over) + 4.0F * here[i];
+      const bool counts = checkered == checkered;
+      sum_xx += counts ? cxx * cxx : 0.0F;
+      sum_yy += counts ? cyy * cyy : 0.0F;
+      sum_x += counts ? gx * gx : 0.0F;
+      sum_y += counts ? gy * gy : 0.0F;
+      sum_noise += counts ? checkered * checkered : 0.0F;
+      count += counts ? 1.0F : 0.0F;
+    }
+    xx.add(sum_xx, count);
+    yy.add(sum_yy, count);
+    x.add(sum_x, count);
+    y.add(sum_y, count);
+    noise.add(sum_noise, count);
+  }
+  return {{xx.value(), yy.value()}, {x.value(), y.value()}, noise.value() / kImmerkaerNoise};
+}
+
+/// The energy of the gradient alone, as above.
 DetailEnergy gradient_energy(const Plane& plane, const cv::Rect& part) {
   Mean along_x;
   Mean along_y;
@@ -110,12 +163,10 @@ DetailEnergy gradient_energy(const Plane& plane, const cv::Rect& part) {
     float count = 0.0F;
 #pragma omp simd reduction(+ : row_x, row_y, count)
     for (int x = part.x; x < part.br().x; ++x) {
-      const float right = above[x + 1] + 2.0F * here[x + 1] + below[x + 1];
-      const float left = above[x - 1] + 2.0F * here[x - 1] + below[x - 1];
-      const float lower = below[x - 1] + 2.0F * below[x] + below[x + 1];
-      const float upper = above[x - 1] + 2.0F * above[x] + above[x + 1];
-      const float gx = 0.125F * (right - left);
-      const float gy = 0.125F * (lower - upper);
+      const float gx = 0.125F * ((above[x + 1] + 2.0F * here[x + 1] + below[x + 1]) -
+                                 (above[x - 1] + 2.0F * here[x - 1] + below[x - 1]));
+      const float gy = 0.125F * ((below[x - 1] + 2.0F * below[x] + below[x + 1]) -
+                                 (above[x - 1] + 2.0F * above[x] + above[x + 1]));
       const float both = gx + gy;
       const bool counts = both == both;
       row_x += counts ? gx * gx : 0.0F;
@@ -128,30 +179,8 @@ DetailEnergy gradient_energy(const Plane& plane, const cv::Rect& part) {
   return {along_x.value(), along_y.value()};
 }
 
-double noise_variance(const Plane& plane, const cv::Rect& part) {
-  Mean squares;
-  for (int y = part.y; y < part.br().y; ++y) {
-    const float* above = plane.row(y - 1);
-    const float* here = plane.row(y);
-    const float* below = plane.row(y + 1);
-    float sum = 0.0F;
-    float count = 0.0F;
-#pragma omp simd reduction(+ : sum, count)
-    for (int x = part.x; x < part.br().x; ++x) {
-      const float corners = above[x - 1] + above[x + 1] + below[x - 1] + below[x + 1];
-      const float sides = above[x] + below[x] + here[x - 1] + here[x + 1];
-      const float value = corners - 2.0F * sides + 4.0F * here[x];
-      const bool counts = value == value;
-      sum += counts ? value * value : 0.0F;
-      count += counts ? 1.0F : 0.0F;
-    }
-    squares.add(sum, count);
-  }
-  return squares.value() / kImmerkaerNoise;
-}
-
-DetailEnergy without_noise(DetailEnergy energy, double variance) {
-  return {energy.along_x - kSobelNoise * variance, energy.along_y - kSobelNoise * variance};
+DetailEnergy less(DetailEnergy energy, double noise) {
+  return {energy.along_x - noise, energy.along_y - noise};
 }
 
 /// Measures one tile after the other; what it needs of memory it keeps.
@@ -175,13 +204,15 @@ class TileMeasurer {
     TileMeasures measures;
     for (std::size_t c = 0; c < 3; ++c) measures.mean[c] = colours.means[c].value();
     measures.clipped = colours.clipped / static_cast<double>(tile.area());
-    const double variance = noise_variance(fine_, part(fine_, seen, tile, 1));
+    const FullResolution close = look_closely(fine_, part(fine_, seen, tile, 1));
+    const double variance = close.noise_variance;
     measures.noise = std::sqrt(variance);
-    measures.fine = without_noise(gradient_energy(fine_, part(fine_, seen, tile, 1)), variance);
+    measures.curvature = less(close.curvature, kCurvatureNoise * variance);
+    measures.fine = less(close.gradient, kSobelNoise * variance);
     measures.middle =
-        without_noise(gradient_energy(middle_, part(middle_, seen, tile, 2)), variance / 4.0);
+        less(gradient_energy(middle_, part(middle_, seen, tile, 2)), kSobelNoise * variance / 4.0);
     measures.coarse =
-        without_noise(gradient_energy(coarse_, part(coarse_, seen, tile, 4)), variance / 16.0);
+        less(gradient_energy(coarse_, part(coarse_, seen, tile, 4)), kSobelNoise * variance / 16.0);
     return measures;
   }
 
@@ -212,6 +243,11 @@ class TileMeasurer {
 };
 
 }  // namespace
+
+double TileMeasures::signal_to_noise() const {
+  constexpr double kLeast = 1e-12;  // of a picture without any noise
+  return fine.sum() / std::max(2.0 * kSobelNoise * noise * noise, kLeast);
+}
 
 FrameMeasures measure_frame(const cv::Mat& image) {
   FrameMeasures measures{TileGrid::of(image.size()), {}};

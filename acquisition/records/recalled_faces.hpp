@@ -7,14 +7,20 @@
 #include <opencv2/core/mat.hpp>
 
 #include "acquisition/quality/face_record.hpp"
+#include "acquisition/quality/sharpness_record.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
 
+struct RecalledFaces {
+  FaceRecord faces;
+  SharpnessRecord sharpness;
+};
+
 /// What a job that goes on must know of the faces before: the last committed layer's image is read
 /// by `read_layer`, how much the faces changed is in the journal. Nothing without a committed
 /// layer. Throws SampleError when the image is damaged, JournalError.
-FaceRecord recall_faces(const reconstruct::SampleFolder& sample, std::int64_t last_committed,
-                        const std::function<cv::Mat(const std::filesystem::path&)>& read_layer);
+RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t last_committed,
+                           const std::function<cv::Mat(const std::filesystem::path&)>& read_layer);
 
 }  // namespace biotomy::acquisition

@@ -224,7 +224,8 @@ FocusSettings read_focus(const CheckedTable& table) {
                              "follows the face");
   focus.search_below_ratio =
       number(table, "search_below_ratio", focus.search_below_ratio, "", 0.0, 10.0,
-             "a search also when an accepted frame's sharpness_ratio fell below this");
+             "a search also when an accepted frame's sharpness fell below this part of the last "
+             "search's peak");
   return focus;
 }
 
@@ -243,7 +244,16 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
       policy == "accept" ? LadderSettings::Exhausted::accept : LadderSettings::Exhausted::pause;
   thresholds.minimum_sharpness_ratio =
       number(table, "minimum_sharpness_ratio", thresholds.minimum_sharpness_ratio, "", 0.0, 10.0,
-             "sharpness of a frame relative to the last focus search's peak");
+             "sharpness of a frame relative to this layer's focus search, or without one to the "
+             "last layers; a blur that takes 15 % of the contrast at half the Nyquist frequency "
+             "leaves 0.88");
+  thresholds.minimum_sharpness_to_record =
+      number(table, "minimum_sharpness_to_record", thresholds.minimum_sharpness_to_record, "", 0.0,
+             10.0, "likewise, after a focus search relative to the last layers");
+  thresholds.minimum_sharpness_anisotropy = number(
+      table, "minimum_sharpness_anisotropy", thresholds.minimum_sharpness_anisotropy, "", 0.0, 1.0,
+      "of a frame's two axes the less sharp one's ratio relative to the other's; below it the "
+      "frame is smeared");
   thresholds.minimum_brightness =
       number(table, "minimum_brightness", thresholds.minimum_brightness, "", 0.0, 1.0,
              "mean brightness, of full scale; below it the frame is black");

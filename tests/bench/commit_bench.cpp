@@ -83,7 +83,6 @@ FrameExpectation expectation() {
   expected.width = kWidth;
   expected.height = kHeight;
   expected.type = CV_8UC3;
-  expected.focus_sharpness = 1.0;
   return expected;
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "acquisition/quality/sharpness.hpp"
 #include "tests/acquisition/fake_rig.hpp"
 
 namespace biotomy::tests {
@@ -18,13 +17,11 @@ struct Judged {
   FrameExpectation expectation;
 
   Judged() {
-    frame.image = chequered_face(96, 64, 1.0);
+    frame.image = ground_face(96, 64, 0.6, 1000.0);
     frame.sequence = 5;
-    expectation = {.width = 96,
-                   .height = 64,
-                   .type = CV_8UC3,
-                   .focus_sharpness = sharpness(frame.image),
-                   .previous_sequence = 4};
+    expectation = {.width = 96, .height = 64, .type = CV_8UC3, .layer = 1, .previous_sequence = 4};
+    expectation.sharpness.found_focus(
+        1, std::make_shared<const FrameMeasures>(measure_frame(frame.image)));
   }
   Assessment assessment() const { return assess(frame, expectation, {}); }
 };
@@ -32,17 +29,17 @@ struct Judged {
 TEST(Assessment, AcceptsAFrameAsSharpAsTheFocusPeak) {
   const Assessment good = Judged().assessment();
   EXPECT_EQ(good.verdict, Verdict::accepted);
-  EXPECT_NEAR(good.sharpness_ratio, 1.0, 1e-9);
-  EXPECT_EQ(good.metrics.size(), 6U);
+  EXPECT_NEAR(good.sharpness_to_peak.value(), 1.0, 1e-9);
+  EXPECT_EQ(good.metrics.size(), 7U);
 }
 
 TEST(Assessment, RejectsABlurredFrameAndSaysHowMuch) {
   Judged judged;
-  judged.frame.image = chequered_face(96, 64, 2.5);
+  judged.frame.image = ground_face(96, 64, 1.5, 1000.0);
   const Assessment blurred = judged.assessment();
   EXPECT_EQ(blurred.verdict, Verdict::rejected);
   EXPECT_EQ(blurred.slug, "blurred");
-  EXPECT_THAT(blurred.reason, HasSubstr("of the focus peak's, below 0.700"));
+  EXPECT_THAT(blurred.reason, HasSubstr("of this layer's focus peak, below "));
 }
 
 TEST(Assessment, RejectsABlackFrame) {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "acquisition/quality/sharpness.hpp"
 #include "tests/acquisition/fake_rig.hpp"
 #include "tests/acquisition/quality/phantom_photographer.hpp"
 
@@ -33,7 +32,6 @@ class Watch {
     bridge::Frame frame;
     frame.image = image;
     frame.sequence = ++sequence_;
-    if (expectation_.focus_sharpness == 0.0) expectation_.focus_sharpness = sharpness(image);
     const Assessment assessment = assess(frame, expectation_, thresholds);
     if (assessment.face) expectation_.faces.saw(*assessment.face);
     return assessment;
@@ -42,6 +40,7 @@ class Watch {
   Assessment judge_and_accept(int layer, const cv::Mat& image) {
     const Assessment assessment = judge(image);
     expectation_.faces.accept(layer, assessment.face, assessment.face_change);
+    expectation_.sharpness.accept(assessment.measures);
     return assessment;
   }
 

@@ -33,7 +33,7 @@ struct Past {
     journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
   }
 
-  FaceRecord recall(std::int64_t last) {
+  RecalledFaces recall(std::int64_t last) {
     return recall_faces(sample, last, [this](const std::filesystem::path& path) {
       read.push_back(path);
       return ground_face(96, 64, 0.5, 1000.0);
@@ -43,8 +43,9 @@ struct Past {
 
 TEST(RecalledFaces, AreNoneBeforeALayerIsCommitted) {
   Past past;
-  const FaceRecord faces = past.recall(0);
-  EXPECT_EQ(faces.face(), nullptr);
+  const RecalledFaces recalled = past.recall(0);
+  EXPECT_EQ(recalled.faces.face(), nullptr);
+  EXPECT_TRUE(recalled.sharpness.recent().empty());
   EXPECT_TRUE(past.read.empty());
 }
 
@@ -54,19 +55,21 @@ TEST(RecalledFaces, AreTheLastLayersImageAndTheChangesInTheJournal) {
   for (std::int64_t layer = 2; layer <= 5; ++layer) {
     past.commit(layer, 0.1 * static_cast<double>(layer));
   }
-  const FaceRecord faces = past.recall(5);
+  const RecalledFaces recalled = past.recall(5);
+  const FaceRecord& faces = recalled.faces;
   EXPECT_EQ(faces.layer(), 5);
   ASSERT_NE(faces.face(), nullptr);
   EXPECT_EQ(past.read, std::vector{past.sample.layer_path(5)});
   EXPECT_DOUBLE_EQ(faces.least_change().value(), 0.2);
   EXPECT_EQ(faces.recent_frames().size(), 1U);
+  EXPECT_EQ(recalled.sharpness.recent().size(), 1U);
 }
 
 TEST(RecalledFaces, OfLongAgoDoNotCount) {
   Past past;
   past.commit(1, 0.001);
   for (std::int64_t layer = 2; layer <= 20; ++layer) past.commit(layer, 0.2);
-  EXPECT_DOUBLE_EQ(past.recall(20).least_change().value(), 0.2);
+  EXPECT_DOUBLE_EQ(past.recall(20).faces.least_change().value(), 0.2);
 }
 
 }  // namespace

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "acquisition/quality/judgement.hpp"
+#include "acquisition/quality/sharpness_record.hpp"
+
+namespace biotomy::acquisition {
+
+/// Whether a frame of `layer` is as sharp as it could be (`sharpness_ratio`), and no less so along
+/// one axis than along the other, as a movement leaves it (`sharpness_anisotropy`). The result has
+/// its measures already.
+///
+/// After a focus search at this layer the search's sharpest frame decides: it shows the same face,
+/// whatever that contains. Otherwise the last accepted layers do: what they contain is nearly the
+/// same. A slow drift, with which they would go along, shows in the ratio to the last search's
+/// peak, which the focus follows by. After a search the record has a say too
+/// (`sharpness_to_record`), with a wide limit: a search that ended on a wrong peak finds its own
+/// frames sharp.
+///
+/// Limits are lowered by two standard errors of the ratio: a small frame, or one with little
+/// detail, has the benefit of the doubt.
+void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
+                     const QualityThresholds& thresholds, Judgement& judgement);
+
+}  // namespace biotomy::acquisition

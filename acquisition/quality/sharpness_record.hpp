@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "acquisition/quality/frame_measures.hpp"
+
+namespace biotomy::acquisition {
+
+/// What a frame's sharpness is compared with: the last accepted layers, and the sharpest frame of
+/// the last focus search. Cheap to copy.
+class SharpnessRecord {
+ public:
+  /// Layers that are remembered: enough for a median, and near enough to show the same tissue.
+  static constexpr std::size_t kRemembered = 8;
+
+  using Frame = std::shared_ptr<const FrameMeasures>;
+
+  void accept(Frame frame);
+
+  /// The sharpest frame of a search at `layer`.
+  void found_focus(std::int64_t layer, Frame peak);
+
+  const std::vector<Frame>& recent() const { return recent_; }
+  const Frame& peak() const { return peak_; }  ///< none before the first search
+  std::int64_t peak_layer() const { return peak_layer_; }
+
+ private:
+  std::vector<Frame> recent_;
+  Frame peak_;
+  std::int64_t peak_layer_ = 0;
+};
+
+}  // namespace biotomy::acquisition
