@@ -43,7 +43,7 @@ struct SharpnessComparison {
 /// signal-to-noise ratio up to 20; a tile counts when its gradients carry more signal than noise.
 /// Nothing when fewer than four tiles can be compared. `limit` only counts.
 ///
-/// A blur that takes 15 % of the contrast at half the Nyquist frequency leaves 0.87 to 0.89 on the
+/// A blur that takes 15 % of the contrast at half the Nyquist frequency leaves 0.84 to 0.90 on the
 /// twin's tissue; faces that follow one another differ by 0.015 (standard deviation, 0.5
 /// megapixel).
 std::optional<SharpnessComparison> compare_sharpness(

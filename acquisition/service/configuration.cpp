@@ -246,7 +246,7 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
       number(table, "minimum_sharpness_ratio", thresholds.minimum_sharpness_ratio, "", 0.0, 10.0,
              "sharpness of a frame relative to this layer's focus search, or without one to the "
              "last layers; a blur that takes 15 % of the contrast at half the Nyquist frequency "
-             "leaves 0.88");
+             "leaves 0.87");
   thresholds.minimum_sharpness_to_record =
       number(table, "minimum_sharpness_to_record", thresholds.minimum_sharpness_to_record, "", 0.0,
              10.0, "likewise, after a focus search relative to the last layers");
