@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <numbers>
 
 #include <opencv2/imgproc.hpp>
 
@@ -14,23 +16,9 @@ constexpr double kLeastSigma = 0.05;
 /// Above it the picture is blurred on a coarser grid, where the same blur costs less.
 constexpr double kWideSigma = 4.0;
 
-/// The discrete Gaussian exp(-t)·I_n(t), t = σ² (Lindeberg, "Scale-space for discrete signals",
-/// IEEE PAMI 12 (1990) 234-254). Its variance is σ² however small that is; a Gaussian sampled at
-/// whole pixels would blur a third as much as it should at σ = 0.36.
-cv::Mat discrete_gaussian(double sigma) {
-  const double variance = sigma * sigma;
-  const int radius = std::max(1, static_cast<int>(std::ceil(3.0 * sigma))) + 1;
-  cv::Mat kernel(2 * radius + 1, 1, CV_64F);
-  for (int n = -radius; n <= radius; ++n) {
-    kernel.at<double>(n + radius) =
-        std::exp(-variance) * std::cyl_bessel_i(static_cast<double>(std::abs(n)), variance);
-  }
-  return kernel / cv::sum(kernel)[0];
-}
-
 void blur_directly(cv::Mat& picture, double sigma) {
-  const cv::Mat kernel = discrete_gaussian(sigma);
-  cv::sepFilter2D(picture, picture, -1, kernel, kernel, {-1, -1}, 0.0, cv::BORDER_REPLICATE);
+  const std::vector<double> weights = blur_weights(sigma);
+  cv::sepFilter2D(picture, picture, -1, weights, weights, {-1, -1}, 0.0, cv::BORDER_REPLICATE);
 }
 
 }  // namespace
@@ -39,6 +27,20 @@ double blur_sigma_um(const Lens& lens, double defocus_um) {
   const double confusion = 2.0 * lens.numerical_aperture * std::fabs(defocus_um);
   const double diffraction = 0.225 * lens.wavelength_um / lens.numerical_aperture;
   return std::hypot(confusion / 4.0, diffraction);
+}
+
+std::vector<double> blur_weights(double sigma) {
+  const double variance = sigma * sigma;
+  const int radius = 1 + static_cast<int>(std::ceil(3.0 * sigma));
+  std::vector<double> weights(2 * static_cast<std::size_t>(radius) + 1);
+  double sum = 0.0;
+  for (int i = -radius; i <= radius; ++i) {
+    double& weight = weights[static_cast<std::size_t>(i + radius)];
+    weight = std::exp(-variance) * std::cyl_bessel_i(static_cast<double>(std::abs(i)), variance);
+    sum += weight;
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
 }
 
 void blur(cv::Mat& picture, double sigma) {
@@ -61,11 +63,32 @@ void blur(cv::Mat& picture, double sigma) {
   cv::resize(coarse, picture, picture.size(), 0, 0, cv::INTER_LINEAR);
 }
 
-void smear_along_rows(cv::Mat& picture, double pixels) {
-  const int length = std::min(static_cast<int>(std::lround(std::fabs(pixels))), picture.cols);
-  if (length > 1) {
-    cv::blur(picture, picture, {length, 1}, {-1, -1}, cv::BORDER_REPLICATE);
+std::vector<double> smear_weights(double pixels) {
+  const double length = std::max(1.0, std::fabs(pixels));
+  const int radius = static_cast<int>(std::ceil(0.5 * (length - 1.0)));
+  std::vector<double> weights(2 * static_cast<std::size_t>(radius) + 1, 1.0 / length);
+  if (radius > 0) {
+    // The outermost pixels are passed over in part.
+    weights.front() = weights.back() = 0.5 * (length - (2.0 * radius - 1.0)) / length;
   }
+  return weights;
+}
+
+void smear_along_rows(cv::Mat& picture, double pixels) {
+  const double length = std::min(std::fabs(pixels), static_cast<double>(picture.cols));
+  if (length > 1.0) {
+    cv::sepFilter2D(picture, picture, -1, smear_weights(length), std::vector<double>{1.0}, {-1, -1},
+                    0.0, cv::BORDER_REPLICATE);
+  }
+}
+
+double contrast_at_half_nyquist(const std::vector<double>& weights) {
+  const double middle = 0.5 * static_cast<double>(weights.size() - 1);
+  double response = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    response += weights[i] * std::cos(0.5 * std::numbers::pi * (static_cast<double>(i) - middle));
+  }
+  return std::fabs(response);
 }
 
 }  // namespace biotomy::sim

@@ -63,6 +63,23 @@ double contrast_left(double sigma) {
 TEST(Defocus, TakesTheStatedContrastAtHalfTheNyquistFrequency) {
   for (const double sigma : {0.1, 0.25, 0.36, 0.5, 0.8, 1.2}) {
     EXPECT_NEAR(contrast_left(sigma), std::exp(-sigma * sigma), 0.005) << sigma;
+    EXPECT_NEAR(contrast_at_half_nyquist(blur_weights(sigma)), contrast_left(sigma), 1e-4) << sigma;
+  }
+}
+
+TEST(Defocus, StatesTheContrastThatASmearLeaves) {
+  cv::Mat picture(16, 64, CV_32FC3);
+  for (int x = 0; x < picture.cols; ++x) {
+    picture.col(x).setTo(cv::Scalar::all(100.0 + 50.0 * (x % 4 == 0) - 50.0 * (x % 4 == 2)));
+  }
+  const auto swing = [](const cv::Mat& of) {
+    return of.at<cv::Vec3f>(8, 32)[0] - of.at<cv::Vec3f>(8, 34)[0];
+  };
+  for (const double pixels : {0.7, 1.3, 2.0, 2.8}) {
+    cv::Mat smeared = picture.clone();
+    smear_along_rows(smeared, pixels);
+    const double contrast = contrast_at_half_nyquist(smear_weights(pixels));
+    EXPECT_NEAR(swing(smeared) / swing(picture), contrast, 1e-3) << pixels;
   }
 }
 
@@ -80,6 +97,16 @@ TEST(Defocus, SmearsMovementAlongTheRows) {
   smear_along_rows(picture, 5);
   EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(4, 22)[0], 1);
   EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(5, 20)[0], 0);
+}
+
+TEST(Defocus, SmearsByAPartOfAPixel) {
+  cv::Mat picture(9, 41, CV_32FC3, cv::Scalar::all(0));
+  picture.at<cv::Vec3f>(4, 20) = {5, 5, 5};
+  smear_along_rows(picture, 2.5);
+  EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(4, 20)[0], 2);
+  EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(4, 21)[0], 1.5);
+  EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(4, 19)[0], 1.5);
+  EXPECT_FLOAT_EQ(picture.at<cv::Vec3f>(4, 22)[0], 0);
 }
 
 }  // namespace
