@@ -33,6 +33,15 @@ struct Paint {
   }
 };
 
+/// By how much the outline of the specimen lies further in at this depth, in the anatomy's unit: an
+/// ellipse from where it ends to where it is as wide as it gets.
+float narrowing(const PhantomSettings& s, double z_um) {
+  constexpr double kHalfSpecimen = 0.9;
+  const double from_end = std::min(z_um - s.begins_um, s.ends_um - z_um) / s.end_um;
+  const double away = 1.0 - std::clamp(from_end, 0.0, 1.0);
+  return static_cast<float>(kHalfSpecimen * (1.0 - std::sqrt(1.0 - away * away)));
+}
+
 Colour toned(Tissue tissue, float tone) {
   return (1.0F + tone) * colour_of(tissue);
 }
@@ -45,6 +54,7 @@ class Phantom::Brush {
   Brush(const Phantom& phantom, double y_um, double z_um)
       : phantom_(phantom),
         softness_(phantom.softness_),
+        narrowing_(narrowing(phantom.settings_, z_um)),
         outlines_(phantom.anatomy_.row(
             static_cast<float>((y_um - phantom.half_height_um_) / phantom.half_height_um_),
             static_cast<float>(z_um / phantom.anatomy_depth_um_))),
@@ -62,7 +72,8 @@ class Phantom::Brush {
 
   Paint paint(double x_um) {
     const auto u = static_cast<float>((x_um - phantom_.half_width_um_) / phantom_.half_width_um_);
-    const Outlines o = outlines_.at(u);
+    Outlines o = outlines_.at(u);
+    o.specimen += narrowing_;
     const float cloud = clouds_.at(x_um);
     const float grain = grain_.at(x_um);
 
@@ -209,6 +220,7 @@ class Phantom::Brush {
 
   const Phantom& phantom_;
   float softness_;
+  float narrowing_;
   Anatomy::Row outlines_;
   GradientNoise::Line clouds_;
   GradientNoise::Line grain_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "sim/phantom/anatomy.hpp"
@@ -15,6 +16,11 @@ struct PhantomSettings {
   double height_um = 10000;
   double depth_um = 640;  ///< the anatomy changes markedly, not wildly, over it
   double detail_um = 35;  ///< the finest detail: edges this wide, no texture finer; 3 to 4 pixels
+
+  // The specimen's rounded ends along z, beyond which is casting alone. By default it has none.
+  double begins_um = -std::numeric_limits<double>::infinity();
+  double ends_um = std::numeric_limits<double>::infinity();
+  double end_um = 300;  ///< from an end to where the specimen is as wide as it gets
 };
 
 /// A joint in green casting material, defined by formulas at every point: no grid, no stored

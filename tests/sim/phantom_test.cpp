@@ -52,6 +52,24 @@ TEST(Phantom, HasTheAnatomyWhereItBelongs) {
   }
 }
 
+TEST(Phantom, EndsRoundedWhereItIsToldTo) {
+  const Phantom phantom{PhantomSettings{.begins_um = 100, .ends_um = 1000, .end_um = 200}};
+  const auto width = [&](double z_um) {
+    int inside = 0;
+    for (double x = 0; x < 10000; x += 20) {
+      inside += phantom.tissue_at(x, 4200, z_um) == Tissue::casting ? 0 : 1;
+    }
+    return inside;
+  };
+  EXPECT_EQ(width(90), 0);
+  EXPECT_GT(width(110), 50);
+  EXPECT_GT(width(200), 1.5 * width(110));
+  EXPECT_GT(width(300), 1.1 * width(200));
+  EXPECT_GT(width(990), 50);
+  EXPECT_LT(width(990), 0.7 * width(800));
+  EXPECT_EQ(width(1010), 0);
+}
+
 TEST(Phantom, IsSurroundedByGreenCastingInEveryLayer) {
   const Phantom phantom{PhantomSettings{}};
   for (double z = 0; z < 640; z += 40) {
