@@ -20,7 +20,8 @@ double swing_um(double vibration_mm_s) {
 
 Camera::Camera(std::uint64_t seed, const Phantom& phantom, double first_face_um,
                const CameraOptics& optics, const SensorSettings& sensor)
-    : optics_(optics),
+    : seed_(seed),
+      optics_(optics),
       painter_(phantom, optics.view, first_face_um),
       sensor_(seed, optics.view.width, optics.view.height, sensor) {}
 
@@ -55,14 +56,16 @@ Photograph Camera::take(const Scene& begin, const Scene& end, const ExposureSett
   const double traverse_um = 0.5 * (begin.traverse_um + end.traverse_um);
   const bool near = std::fabs(traverse_um) < optics_.view.width * optics_.view.pixel_um;
   cv::Mat light;
-  photograph.face_in_view =
-      place_face(traverse_um, near ? painter_.paint(end.block) : cv::Mat(), light);
+  photograph.face_in_view = place_face(
+      traverse_um, near ? painter_.paint(end.block, end.displacement) : cv::Mat(), light);
   if (photograph.face_in_view) {
+    lay_film(light, end.film, seed_ + end.block.state().passes);
     const double moved_um = std::fabs(end.traverse_um - begin.traverse_um) +
                             swing_um(0.5 * (begin.vibration_mm_s + end.vibration_mm_s));
     smear_along_rows(light, moved_um / optics_.view.pixel_um);
     blur(light, blur_sigma_um(optics_.lens, photograph.defocus_um) / optics_.view.pixel_um);
   }
+  if (!end.lamp_field.is_even()) light_up(light, end.lamp_field);
   const double lamp =
       begin.lamp_on && end.lamp_on ? 0.5 * (begin.lamp_share + end.lamp_share) : 0.0;
   photograph.image = sensor_.expose(light, lamp, exposure, photograph.number);

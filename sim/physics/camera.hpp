@@ -6,7 +6,9 @@
 
 #include "sim/physics/defocus.hpp"
 #include "sim/physics/face_painter.hpp"
+#include "sim/physics/lamp_field.hpp"
 #include "sim/physics/sensor.hpp"
+#include "sim/physics/surface_film.hpp"
 
 namespace biotomy::sim {
 
@@ -19,6 +21,9 @@ struct Scene {
   double lamp_share = 1;       ///< of the light that the lamp should give
   double vibration_mm_s = 0;   ///< RMS velocity of camera against block
   double column_scale_um = 0;  ///< what the column's scale shows
+  LampField lamp_field{};
+  SurfaceFilm film{};
+  Displacement displacement{};  ///< of the block in its holder
 };
 
 struct CameraOptics {
@@ -52,6 +57,7 @@ class Camera {
  private:
   bool place_face(double traverse_um, const cv::Mat& face, cv::Mat& light) const;
 
+  std::uint64_t seed_;
   CameraOptics optics_;
   FacePainter painter_;
   Sensor sensor_;

@@ -21,19 +21,21 @@ constexpr int kSubpixelBits = 4;
 FacePainter::FacePainter(const Phantom& phantom, const View& view, double first_face_um)
     : phantom_(phantom), view_(view), first_face_um_(first_face_um) {}
 
-const cv::Mat& FacePainter::paint(const Block& block) {
-  const bool ground = face_.empty() || painted_depth_um_ != block.strip_depth_um();
+const cv::Mat& FacePainter::paint(const Block& block, const Displacement& displacement) {
+  const bool ground = face_.empty() || painted_depth_um_ != block.strip_depth_um() ||
+                      painted_displacement_ != displacement;
   if (ground) {
-    paint_strips(block.strip_depth_um());
+    paint_strips(block.strip_depth_um(), displacement);
   }
   if (ground || painted_passes_ != block.state().passes ||
       painted_blown_ms_ != block.state().blown_ms) {
-    strew(block);
+    strew(block, displacement);
   }
   return picture_;
 }
 
-void FacePainter::paint_strips(const std::array<double, Block::kStrips>& depth_um) {
+void FacePainter::paint_strips(const std::array<double, Block::kStrips>& depth_um,
+                               const Displacement& displacement) {
   face_.create(view_.height, view_.width, CV_32FC3);
   const auto first_column = [&](std::size_t strip) {
     return static_cast<int>(strip * static_cast<std::size_t>(view_.width) / Block::kStrips);
@@ -49,21 +51,25 @@ void FacePainter::paint_strips(const std::array<double, Block::kStrips>& depth_u
         const int from = first_column(begin);
         const std::span<Colour> part(pixels + from,
                                      static_cast<std::size_t>(first_column(end) - from));
-        phantom_.paint_row(from * view_.pixel_um, view_.pixel_um, row * view_.pixel_um,
+        phantom_.paint_row(from * view_.pixel_um - displacement.x_um, view_.pixel_um,
+                           row * view_.pixel_um - displacement.y_um,
                            depth_um[begin] - first_face_um_, part);
         begin = end;
       }
     }
   });
   painted_depth_um_ = depth_um;
+  painted_displacement_ = displacement;
 }
 
-void FacePainter::strew(const Block& block) {
+void FacePainter::strew(const Block& block, const Displacement& displacement) {
   face_.copyTo(picture_);
   constexpr double kSubpixels = 1 << kSubpixelBits;
   for (const Speck& speck : block.debris()) {
-    const cv::Point centre(static_cast<int>(std::lround(kSubpixels * view_.width * speck.x)),
-                           static_cast<int>(std::lround(kSubpixels * view_.height * speck.y)));
+    const double x = view_.width * speck.x + displacement.x_um / view_.pixel_um;
+    const double y = view_.height * speck.y + displacement.y_um / view_.pixel_um;
+    const cv::Point centre(static_cast<int>(std::lround(kSubpixels * x)),
+                           static_cast<int>(std::lround(kSubpixels * y)));
     const int radius = static_cast<int>(std::lround(speck.radius_um / view_.pixel_um * kSubpixels));
     cv::circle(picture_, centre, radius, kChipColour, cv::FILLED, cv::LINE_8, kSubpixelBits);
   }

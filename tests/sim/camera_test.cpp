@@ -151,6 +151,55 @@ TEST(Camera, SeesDebrisUntilItIsBlownAway) {
   EXPECT_LT(cv::norm(fresh.take().image, blown, cv::NORM_L1) / (3.0 * 200 * 200), 3);
 }
 
+TEST(Camera, SeesTheBlockWhereItWasShiftedTo) {
+  Studio studio;
+  studio.sensor.vignetting = 0;
+  const cv::Mat before = studio.take().image;
+  studio.scene.displacement = {.x_um = 150, .y_um = -100};
+  const cv::Mat shifted = studio.take().image;
+  const cv::Mat there = shifted(cv::Rect(53, 48, 100, 100));
+  EXPECT_LT(cv::norm(there, before(cv::Rect(50, 50, 100, 100)), cv::NORM_L1) / 30000, 2);
+}
+
+TEST(Camera, SeesRimeWhereTheFaceIsFrosted) {
+  Studio studio;
+  studio.sensor.vignetting = 0;
+  const cv::Mat bare = studio.take().image;
+  studio.scene.film.frost = {.share = 0.3, .opacity = 0.5};
+  const cv::Mat frosted = studio.take().image;
+  cv::Mat least;
+  cv::Mat least_before;
+  cv::reduce(frosted.reshape(1, 200 * 200), least, 1, cv::REDUCE_MIN);
+  cv::reduce(bare.reshape(1, 200 * 200), least_before, 1, cv::REDUCE_MIN);
+  // A veil of a half lifts the weakest colour of nearly everything by far more than noise does.
+  const cv::Mat whiter = least > least_before + 12;
+  EXPECT_NEAR(cv::countNonZero(whiter) / 40000.0, 0.32, 0.08);
+}
+
+TEST(Camera, SeesSpotsThatAreTooBrightWhereTheFaceGlares) {
+  Studio studio;
+  studio.scene.film.glare.share = 0.01;
+  const cv::Mat image = studio.take().image;
+  cv::Mat least;
+  cv::reduce(image.reshape(1, 200 * 200), least, 1, cv::REDUCE_MIN);
+  EXPECT_NEAR(cv::countNonZero(least == 255) / 40000.0, 0.01, 0.003);
+}
+
+TEST(Camera, ShowsLightThatIsUnevenOrColoured) {
+  Studio studio;
+  const cv::Mat plain = studio.take().image;
+  studio.scene.lamp_field = {.slope_x = 0.2, .slope_y = 0, .colour = {1.1, 1, 0.9}};
+  const cv::Mat lit = studio.take().image;
+  const auto ratio = [&](int x, int channel) {
+    const cv::Rect strip(x, 0, 10, 200);
+    return cv::mean(lit(strip))[channel] / cv::mean(plain(strip))[channel];
+  };
+  EXPECT_NEAR(ratio(0, 1), 0.905, 0.01);
+  EXPECT_NEAR(ratio(190, 1), 1.095, 0.01);
+  EXPECT_NEAR(ratio(95, 0), 1.1, 0.01);
+  EXPECT_NEAR(ratio(95, 2), 0.9, 0.01);
+}
+
 TEST(Camera, ShowsTheStepOfABrokenPass) {
   Studio studio;
   studio.scene.block.begin_pass(1600);
