@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace biotomy::tests {
+
+/// What may be wrong with a labelled frame.
+enum class Defect {
+  none,
+  defocus,
+  smear,
+  lamp_dark,
+  lamp_bright,
+  uneven_light,
+  clipped,
+  colour_cast,
+  debris,
+  frost,
+  glare,
+  torn,
+  partial,
+  black,
+  stale,
+  unchanged,
+  part_unchanged,
+  shift,
+};
+
+/// A defect, the strengths in which it is made, and what an assessment should make of them.
+/// Between `harmless` and `harmful` is the grey zone, in which either answer is right.
+struct DefectKind {
+  Defect defect;
+  const char* name;
+  const char* unit;
+  double least;     ///< strength
+  double harmless;  ///< up to it the frame is as good as any; less than `least`: never
+  double harmful;   ///< from it on the frame must be rejected
+  double most;
+  int weight;  ///< how often it is made, relative to the others
+  /// The reasons that name it, and the metrics that are meant for it: of those the first that a
+  /// frame has.
+  std::array<std::string_view, 4> slugs;
+  std::array<std::string_view, 3> metrics;
+};
+
+/// All but `none`.
+std::span<const DefectKind> defect_kinds();
+
+const DefectKind& kind_of(Defect defect);
+
+}  // namespace biotomy::tests
