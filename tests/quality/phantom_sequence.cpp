@@ -184,7 +184,7 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
       break;
     }
     case Defect::clipped:
-      setting.exposure = drawn_.between(1.2, 2.5);
+      setting.exposure = drawn_.between(1.05, 1.6);
       break;
     case Defect::colour_cast:
       scene.lamp_field.colour.at(static_cast<std::size_t>(drawn_.below(3))) += drawn_.sign() * part;

@@ -1,0 +1,82 @@
+#include "tests/quality/set_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace biotomy::tests {
+namespace {
+
+bool names(const DefectKind& kind, const std::string& slug) {
+  return !slug.empty() && std::ranges::find(kind.slugs, slug) != kind.slugs.end();
+}
+
+/// Of the metrics that are meant for the defect the first that there is.
+const acquisition::Metric* metric_for(const DefectKind& kind, const JudgedFrame& frame) {
+  for (const std::string_view name : kind.metrics) {
+    if (const acquisition::Metric* metric = frame.metric(name)) return metric;
+  }
+  return nullptr;
+}
+
+void add_defective(const JudgedFrame& frame, DefectResult& result) {
+  const DefectKind& kind = *result.kind;
+  (frame.demand == Demand::reject   ? result.harmful
+   : frame.demand == Demand::accept ? result.harmless
+                                    : result.between)
+      .add(frame);
+  if (frame.demand != Demand::reject) return;
+  result.named += static_cast<int>(frame.rejected && names(kind, frame.slug));
+  if (const auto* metric = metric_for(kind, frame)) result.values.bad.push_back(metric->value);
+  if (kind.most <= kind.harmful) return;
+  const double place = std::log(frame.strength / kind.harmful) / std::log(kind.most / kind.harmful);
+  result.by_strength.at(static_cast<std::size_t>(std::clamp(3.0 * place, 0.0, 2.0))).add(frame);
+}
+
+void add_good(const JudgedFrame& frame, DefectResult& result) {
+  ++result.alarms.frames;
+  result.alarms.rejected += static_cast<int>(frame.rejected && names(*result.kind, frame.slug));
+  if (const auto* metric = metric_for(*result.kind, frame)) {
+    result.metric = metric->name;
+    result.values.good.push_back(metric->value);
+    // Nearly all good frames are on the right side of the limit.
+    result.values.low_is_bad = metric->passed == (metric->value > metric->limit);
+  }
+}
+
+}  // namespace
+
+void Rejections::add(const JudgedFrame& frame) {
+  ++frames;
+  rejected += static_cast<int>(frame.rejected);
+}
+
+double DefectResult::goal() const {
+  constexpr double kBlur = 0.99;
+  constexpr double kOther = 0.98;
+  return kind->defect == Defect::defocus || kind->defect == Defect::smear ? kBlur : kOther;
+}
+
+bool SetResults::reached() const {
+  return good.share() <= kMostFalseAlarms && std::ranges::all_of(defects, &DefectResult::reached);
+}
+
+SetResults results_of(const std::vector<JudgedFrame>& frames) {
+  SetResults results;
+  for (const DefectKind& kind : defect_kinds()) results.defects.emplace_back().kind = &kind;
+  for (const JudgedFrame& frame : frames) {
+    results.all.add(frame);
+    results.mean_seconds += frame.seconds / static_cast<double>(frames.size());
+    if (frame.defect == Defect::none) {
+      results.good.add(frame);
+      if (frame.rejected) ++results.alarms[frame.slug];
+      for (DefectResult& result : results.defects) add_good(frame, result);
+    } else {
+      add_defective(frame, *std::ranges::find_if(results.defects, [&](const DefectResult& result) {
+                      return result.kind->defect == frame.defect;
+                    }));
+    }
+  }
+  return results;
+}
+
+}  // namespace biotomy::tests
