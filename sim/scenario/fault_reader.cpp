@@ -60,6 +60,38 @@ void read_parameters(const CheckedTable& event, LampFlickers& fault) {
   fault.frequency_hz = number(event, "frequency", fault.frequency_hz, "Hz", 0.001, 1000, "of it");
 }
 
+void read_parameters(const CheckedTable& event, LampLightsUnevenly& fault) {
+  const auto slope = [&](const char* name, double fallback, const char* description) {
+    return number(event, name, fallback, "", -1, 1, description);
+  };
+  fault.slope_x = slope("slope_x", fault.slope_x,
+                        "of the mean light: so much more falls on the right edge than the left");
+  fault.slope_y = slope("slope_y", fault.slope_y, "likewise on the lower edge than the upper");
+}
+
+void read_parameters(const CheckedTable& event, LampChangesColour& fault) {
+  const auto factor = [&](const char* name, double fallback) {
+    return number(event, name, fallback, "", 0, 2, "factor of its light");
+  };
+  fault.red = factor("red", fault.red);
+  fault.green = factor("green", fault.green);
+  fault.blue = factor("blue", fault.blue);
+}
+
+void read_parameters(const CheckedTable& event, FaceFrosts& fault) {
+  fault.share = number(event, "share", fault.share, "", 0, 1, "of the frame that it covers");
+  fault.opacity = number(event, "opacity", fault.opacity, "", 0, 1, "1 hides what is under it");
+}
+
+void read_parameters(const CheckedTable& event, FaceGlares& fault) {
+  fault.share = number(event, "share", fault.share, "", 0, 0.1, "of the frame that shines");
+}
+
+void read_parameters(const CheckedTable& event, BlockShifts& fault) {
+  fault.x_um = number(event, "x", fault.x_um, "um", -1e6, 1e6, "to the right");
+  fault.y_um = number(event, "y", fault.y_um, "um", -1e6, 1e6, "down");
+}
+
 void read_parameters(const CheckedTable& event, CameraGivesOldFrame& fault) {
   fault.under_old_number =
       event.get(TextKey{.name = "number",

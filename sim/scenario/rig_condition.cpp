@@ -34,6 +34,26 @@ struct Effect {
     condition.lamp_share *= 1.0 - dark * (1.0 - fault.share);
   }
 
+  void operator()(const LampLightsUnevenly& fault) const {
+    condition.lamp_field.slope_x += fault.slope_x;
+    condition.lamp_field.slope_y += fault.slope_y;
+  }
+  void operator()(const LampChangesColour& fault) const {
+    auto& [red, green, blue] = condition.lamp_field.colour;
+    red *= fault.red;
+    green *= fault.green;
+    blue *= fault.blue;
+  }
+
+  void operator()(const FaceFrosts& fault) const {
+    condition.film.frost = {.share = fault.share, .opacity = fault.opacity};
+  }
+  void operator()(const FaceGlares& fault) const { condition.film.glare.share += fault.share; }
+  void operator()(const BlockShifts& fault) const {
+    condition.displacement.x_um += fault.x_um;
+    condition.displacement.y_um += fault.y_um;
+  }
+
   void operator()(const CameraHangs&) const { condition.camera.hangs = true; }
   void operator()(const CameraVanishes&) const { condition.camera.vanished = true; }
   void operator()(const CameraGivesOldFrame& fault) const {

@@ -3,7 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "sim/physics/face_painter.hpp"
+#include "sim/physics/lamp_field.hpp"
 #include "sim/physics/machine_defects.hpp"
+#include "sim/physics/surface_film.hpp"
 #include "sim/scenario/schedule.hpp"
 
 namespace biotomy::sim {
@@ -38,6 +41,9 @@ struct RigCondition {
   bool estop_pressed = false;
   bool door_open = false;
   double lamp_share = 1;  ///< of the light that the lamp gives while it is on
+  LampField lamp_field;
+  SurfaceFilm film;
+  Displacement displacement;  ///< of the block in its holder
   bool controller_powered = true;
   bool controller_heartbeat_stopped = false;
   bool modbus_silent = false;

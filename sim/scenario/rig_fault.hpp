@@ -38,6 +38,38 @@ struct LampFlickers {
   double frequency_hz = 3;
 };
 
+struct LampLightsUnevenly {
+  static constexpr const char* kName = "lamp_uneven";
+  static constexpr const char* kMeaning = "its light falls off over the face";
+  double slope_x = 0.2;  ///< see LampField
+  double slope_y = 0.0;
+};
+struct LampChangesColour {
+  static constexpr const char* kName = "lamp_colour";
+  static constexpr const char* kMeaning = "its light has another colour";
+  double red = 1.1;  ///< factors of the light
+  double green = 1.0;
+  double blue = 0.9;
+};
+
+struct FaceFrosts {
+  static constexpr const char* kName = "frost";
+  static constexpr const char* kMeaning = "rime lies on parts of the face, which no air removes";
+  double share = 0.3;  ///< see Frost
+  double opacity = 0.4;
+};
+struct FaceGlares {
+  static constexpr const char* kName = "glare";
+  static constexpr const char* kMeaning = "spots of the face reflect the lamp";
+  double share = 0.005;  ///< see Glare
+};
+struct BlockShifts {
+  static constexpr const char* kName = "block_shifts";
+  static constexpr const char* kMeaning = "the block slips in its holder, as the camera sees it";
+  double x_um = 100;  ///< to the right
+  double y_um = 0;    ///< down
+};
+
 struct CameraHangs {
   static constexpr const char* kName = "camera_hangs";
   static constexpr const char* kMeaning = "it photographs nothing and answers nothing";
@@ -140,12 +172,13 @@ struct CoolerFails {
 };
 
 using RigFault =
-    std::variant<EstopPressed, DoorOpen, DoorBounces, LampDead, LampDims, LampFlickers, CameraHangs,
-                 CameraVanishes, CameraGivesOldFrame, CameraTearsFrame, CameraGivesBlackFrame,
-                 CameraGivesWrongSize, ControllerPowerCut, ControllerHeartbeatStops, ModbusSilent,
-                 LinesSilent, AxisStalls, AxisCreeps, AxisReadsWrong, SpindleOverloaded,
-                 SpindleWontStart, GrindRemovesNothing, GrindRemovesTooLittle, DebrisSticks,
-                 VibrationFromOutside, CoolerFails>;
+    std::variant<EstopPressed, DoorOpen, DoorBounces, LampDead, LampDims, LampFlickers,
+                 LampLightsUnevenly, LampChangesColour, FaceFrosts, FaceGlares, BlockShifts,
+                 CameraHangs, CameraVanishes, CameraGivesOldFrame, CameraTearsFrame,
+                 CameraGivesBlackFrame, CameraGivesWrongSize, ControllerPowerCut,
+                 ControllerHeartbeatStops, ModbusSilent, LinesSilent, AxisStalls, AxisCreeps,
+                 AxisReadsWrong, SpindleOverloaded, SpindleWontStart, GrindRemovesNothing,
+                 GrindRemovesTooLittle, DebrisSticks, VibrationFromOutside, CoolerFails>;
 
 /// The word by which scenarios call it.
 const char* name_of(const RigFault& fault);

@@ -264,7 +264,10 @@ Scene Rig::scene() const {
           lamp_on_,
           condition_.lamp_share,
           mechanics_.vibration_mm_s(),
-          mechanics_.column.position_um()};
+          mechanics_.column.position_um(),
+          condition_.lamp_field,
+          condition_.film,
+          condition_.displacement};
 }
 
 CameraCondition Rig::camera_condition() const {

@@ -264,6 +264,19 @@ TEST(Rig, ShowsAScaleThatIsWrongAndTheTruthToTheCamera) {
   EXPECT_EQ(rig.rig.scene().column_um, 5000);
 }
 
+TEST(Rig, ShowsTheCameraWhatIsWrongWithLightAndFace) {
+  Workshop shop;
+  RunningRig rig(shop);
+  rig.rig.add_event(lasting("reflector", LampLightsUnevenly{0.2, 0.1}));
+  rig.rig.add_event(lasting("rime", FaceFrosts{0.3, 0.4}));
+  rig.rig.add_event(lasting("slip", BlockShifts{50, -20}));
+  EXPECT_EQ(rig.rig.scene().lamp_field.slope_y, 0.1);
+  EXPECT_EQ(rig.rig.scene().film.frost.share, 0.3);
+  EXPECT_EQ(rig.rig.scene().displacement, (Displacement{50, -20}));
+  rig.rig.end_event("rime");
+  EXPECT_EQ(rig.rig.scene().film.frost.share, 0);
+}
+
 TEST(Rig, BeginsWithinItsLimits) {
   Workshop shop;
   shop.settings.controller.feed_minimum_um = 500;

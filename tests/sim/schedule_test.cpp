@@ -181,6 +181,24 @@ TEST(RigCondition, AddsUpTheFaultsThatLast) {
   EXPECT_EQ(condition.machine.wheel_short_um, 4);
 }
 
+TEST(RigCondition, AddsUpWhatTheCameraSees) {
+  const RigCondition condition = condition_of({{LampLightsUnevenly{0.1, -0.2}, 0},
+                                               {LampLightsUnevenly{0.1, 0}, 0},
+                                               {LampChangesColour{0.5, 1, 1}, 0},
+                                               {LampChangesColour{0.5, 1, 0.9}, 0},
+                                               {FaceFrosts{0.2, 0.6}, 0},
+                                               {FaceGlares{0.01}, 0},
+                                               {BlockShifts{30, 40}, 0},
+                                               {BlockShifts{30, 0}, 0}},
+                                              1);
+  EXPECT_EQ(condition.lamp_field, (LampField{0.2, -0.2, {0.25, 1, 0.9}}));
+  EXPECT_EQ(condition.film.frost.share, 0.2);
+  EXPECT_EQ(condition.film.frost.opacity, 0.6);
+  EXPECT_EQ(condition.film.glare.share, 0.01);
+  EXPECT_EQ(condition.displacement, (Displacement{60, 40}));
+  EXPECT_TRUE(condition_of({}, 1).lamp_field.is_even());
+}
+
 TEST(RigCondition, LetsTheDoorBounceAndTheLampFlicker) {
   const std::vector<ActiveFault> faults{{DoorBounces{1.0, 0.1}, 10}, {LampFlickers{0.4, 0.5}, 10}};
   EXPECT_TRUE(condition_of(faults, 10.05).door_open);
