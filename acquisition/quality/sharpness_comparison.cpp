@@ -1,6 +1,7 @@
 #include "acquisition/quality/sharpness_comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -8,15 +9,53 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr double kLeastSignal = 1.0;  ///< to noise, of a tile that counts
-constexpr double kMostWeight = 20.0;
+/// Two neighbouring bands of a tile's detail. Blur takes more of the finer.
+struct BandPair {
+  DetailEnergy TileMeasures::*fine;
+  DetailEnergy TileMeasures::*coarse;
+  double effect;      ///< on the logarithm of their quotient, relative to the first pair's
+  double noise_gain;  ///< of the finer band's energy per noise variance, both axes
+  double scatter;     ///< of the logarithm, between tiles of neighbouring faces without noise
+};
+
+/// What each pair is good for: the first feels blur most but drowns in noise where there is little
+/// detail, as in casting material, where the second is still good. The effects are those of blur on
+/// the twin's tissue and casting material, the scatter is that of its layers.
+constexpr std::array kPairs = {
+    BandPair{&TileMeasures::curvature, &TileMeasures::fine, 1.0, 12.0, 0.10},
+    BandPair{&TileMeasures::fine, &TileMeasures::middle, 0.25, 0.375, 0.08}};
+
+/// Which both estimates have in common with all tiles: what the scatter between them cannot show.
+constexpr double kCommonError = 0.005;
+
 constexpr std::size_t kLeastTiles = 4;
 
-/// Below it a tile has lost all detail: the logarithm of nothing would say no more.
-constexpr double kLeastRatio = 1e-3;
+/// A tile whose coarse detail changed by this part, up or down, counts for six tenths.
+constexpr double kContentChange = 0.4;
+constexpr double kLeastLikeness = 0.1;
 
-double quotient(double curvature, double gradient) {
-  return gradient > 0.0 ? std::max(curvature, 0.0) / gradient : 0.0;
+/// A pair whose finer energy noise alone makes fluctuate by more than this part says nothing.
+constexpr double kMostFluctuation = 0.7;
+
+/// Below it a tile has lost all detail: the logarithm of nothing would say no more.
+constexpr double kLeastQuotient = 0.05;
+constexpr double kLeastEnergy = 1e-12;
+
+/// For the sharpness of a frame alone.
+constexpr double kLeastSignal = 1.0;
+constexpr double kMostWeight = 20.0;
+
+using References = std::span<const std::shared_ptr<const FrameMeasures>>;
+using Axes = double (*)(const DetailEnergy&);
+
+double both(const DetailEnergy& energy) {
+  return energy.sum();
+}
+double along_x(const DetailEnergy& energy) {
+  return energy.along_x;
+}
+double along_y(const DetailEnergy& energy) {
+  return energy.along_y;
 }
 
 double median(std::vector<double> values) {
@@ -59,41 +98,117 @@ double standard_error(const std::vector<Weighted>& values, double middle) {
          sum;
 }
 
-/// A property of a tile, in the median of the references that have it; 0 when none does.
+/// A property of a tile, in the median of the references.
 template <typename Property>
-double typical(std::span<const std::shared_ptr<const FrameMeasures>> references, std::size_t tile,
-               const Property& property) {
+double typical(References references, std::size_t tile, const Property& property) {
   std::vector<double> values;
   for (const auto& reference : references) values.push_back(property(reference->tiles[tile]));
-  return values.empty() ? 0.0 : median(std::move(values));
+  return median(std::move(values));
 }
 
-/// Of a tile's property to what it is in the references; nothing when it is nothing there.
-std::optional<double> logarithm_of_ratio(
-    const FrameMeasures& frame, std::span<const std::shared_ptr<const FrameMeasures>> references,
-    std::size_t tile, double (*property)(const TileMeasures&)) {
-  const double then = typical(references, tile, property);
+double quotient(const TileMeasures& tile, const BandPair& pair, Axes axes) {
+  return std::max(axes(tile.*pair.fine), 0.0) / std::max(axes(tile.*pair.coarse), kLeastEnergy);
+}
+
+/// How the quotient of a pair differs from what it is in the references, as a logarithm; nothing
+/// when there it is nothing.
+std::optional<double> change(const TileMeasures& tile, References references, std::size_t number,
+                             const BandPair& pair, Axes axes) {
+  const double then = typical(references, number, [&](const TileMeasures& reference) {
+    return quotient(reference, pair, axes);
+  });
   if (then <= 0.0) return std::nullopt;
-  return std::log(std::max(property(frame.tiles[tile]) / then, kLeastRatio));
+  return std::log(std::max(quotient(tile, pair, axes) / then, kLeastQuotient));
 }
 
-SharpnessComparison::Estimate estimate(const std::vector<Weighted>& logarithms) {
-  const double middle = weighted_median(logarithms);
-  return {std::exp(middle), standard_error(logarithms, middle)};
+/// How alike a tile's content is to the references': 1 is the same. By the contrast of the coarse
+/// detail, which a little blur leaves alone.
+double likeness(const TileMeasures& tile, References references, std::size_t number) {
+  const auto contrast = [](const TileMeasures& of) {
+    const double brightness = std::max(of.brightness(), kLeastEnergy);
+    return std::max(of.coarse.sum(), kLeastEnergy) / (brightness * brightness);
+  };
+  const double changed = std::log(contrast(tile) / typical(references, number, contrast));
+  return std::exp(-0.5 * std::pow(changed / kContentChange, 2));
 }
+
+/// The inverse variance of the change of a pair's quotient in a tile of so many pixels; 0 when
+/// noise leaves nothing of it.
+double certainty(References references, std::size_t number, const BandPair& pair, int pixels) {
+  const double energy = typical(references, number, [&](const TileMeasures& tile) {
+    return std::max((tile.*pair.fine).sum(), kLeastEnergy);
+  });
+  const double noise =
+      typical(references, number, [](const TileMeasures& tile) { return tile.noise; });
+  // The mean square of n normal deviates scatters by sqrt(2/n); those of overlapping stencils, of
+  // which a part is not independent, by somewhat more.
+  const double scatter = 2.0 / std::sqrt(static_cast<double>(pixels));
+  const double fluctuation = pair.noise_gain * noise * noise * scatter / energy;
+  if (fluctuation > kMostFluctuation) return 0.0;
+  return 1.0 / (pair.scatter * pair.scatter + fluctuation * fluctuation);
+}
+
+/// Of all tiles that can be compared, for one pair.
+struct TileChanges {
+  std::vector<Weighted> both;
+  std::vector<Weighted> x;
+  std::vector<Weighted> y;
+  std::vector<Weighted> x_over_y;
+
+  /// How many lie below a limit, which is no logarithm.
+  int below(double limit) const {
+    return static_cast<int>(std::count_if(both.begin(), both.end(), [&](const Weighted& tile) {
+      return std::exp(tile.value) < limit;
+    }));
+  }
+};
+
+TileChanges changes_of(const FrameMeasures& frame, References references, const BandPair& pair) {
+  TileChanges changes;
+  for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
+    const TileMeasures& tile = frame.tiles[i];
+    const double alike = likeness(tile, references, i);
+    const double certain =
+        certainty(references, i, pair, frame.grid.tile(static_cast<int>(i)).area());
+    if (alike < kLeastLikeness || certain <= 0.0) continue;
+    const auto all = change(tile, references, i, pair, &both);
+    const auto x = change(tile, references, i, pair, &along_x);
+    const auto y = change(tile, references, i, pair, &along_y);
+    if (!all || !x || !y) continue;
+    const double weight = alike * certain;
+    changes.both.push_back({*all, weight});
+    changes.x.push_back({*x, weight});
+    changes.y.push_back({*y, weight});
+    changes.x_over_y.push_back({*x - *y, weight});
+  }
+  return changes;
+}
+
+/// The mean of the pairs' medians, each over its effect, by the inverse of their variances.
+class Combination {
+ public:
+  void add(const std::vector<Weighted>& changes, const BandPair& pair) {
+    const double middle = weighted_median(changes);
+    const double error = std::hypot(standard_error(changes, middle),
+                                    kCommonError * pair.scatter / kPairs[0].scatter);
+    const double weight = pair.effect * pair.effect / (error * error);
+    sum_ += weight * middle / pair.effect;
+    weights_ += weight;
+  }
+
+  SharpnessComparison::Estimate result() const {
+    return {std::exp(sum_ / weights_), 1.0 / std::sqrt(weights_)};
+  }
+
+ private:
+  double sum_ = 0.0;
+  double weights_ = 0.0;
+};
 
 }  // namespace
 
 double sharpness(const TileMeasures& tile) {
-  return quotient(tile.curvature.sum(), tile.fine.sum());
-}
-
-double sharpness_along_x(const TileMeasures& tile) {
-  return quotient(tile.curvature.along_x, tile.fine.along_x);
-}
-
-double sharpness_along_y(const TileMeasures& tile) {
-  return quotient(tile.curvature.along_y, tile.fine.along_y);
+  return quotient(tile, kPairs[0], &both);
 }
 
 double sharpness(const FrameMeasures& frame) {
@@ -105,38 +220,34 @@ double sharpness(const FrameMeasures& frame) {
   return tiles.empty() ? 0.0 : weighted_median(std::move(tiles));
 }
 
-std::optional<SharpnessComparison> compare_sharpness(
-    const FrameMeasures& frame, std::span<const std::shared_ptr<const FrameMeasures>> references,
-    double limit) {
+std::optional<SharpnessComparison> compare_sharpness(const FrameMeasures& frame,
+                                                     References references, double limit) {
+  if (references.empty()) return std::nullopt;
   for (const auto& reference : references) {
     if (reference->grid != frame.grid) return std::nullopt;
   }
-  std::vector<Weighted> ratios;    // logarithms, as the next
-  std::vector<Weighted> x_over_y;  // of the ratios along the axes
-  for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
-    const double signal =
-        typical(references, i, [](const TileMeasures& tile) { return tile.signal_to_noise(); });
-    if (signal <= kLeastSignal) continue;
-    const double weight = std::min(signal, kMostWeight);
-    const auto ratio = logarithm_of_ratio(frame, references, i, &sharpness);
-    const auto along_x = logarithm_of_ratio(frame, references, i, &sharpness_along_x);
-    const auto along_y = logarithm_of_ratio(frame, references, i, &sharpness_along_y);
-    if (!ratio || !along_x || !along_y) continue;
-    ratios.push_back({*ratio, weight});
-    x_over_y.push_back({*along_x - *along_y, weight});
-  }
-  if (ratios.size() < kLeastTiles) return std::nullopt;
+  Combination ratio;
+  Combination x;
+  Combination y;
+  Combination x_over_y;
   SharpnessComparison comparison;
-  comparison.ratio = estimate(ratios);
-  comparison.anisotropy = estimate(x_over_y);
-  if (comparison.anisotropy.value > 1.0) {
-    comparison.anisotropy.value = 1.0 / comparison.anisotropy.value;
+  for (const BandPair& pair : kPairs) {
+    const TileChanges changes = changes_of(frame, references, pair);
+    if (changes.both.size() < kLeastTiles) continue;
+    ratio.add(changes.both, pair);
+    x.add(changes.x, pair);
+    y.add(changes.y, pair);
+    x_over_y.add(changes.x_over_y, pair);
+    comparison.tiles = std::max(comparison.tiles, static_cast<int>(changes.both.size()));
+    comparison.below = std::max(comparison.below, changes.below(std::pow(limit, pair.effect)));
   }
-  comparison.tiles = static_cast<int>(ratios.size());
-  comparison.below =
-      static_cast<int>(std::count_if(ratios.begin(), ratios.end(), [&](const Weighted& tile) {
-        return std::exp(tile.value) < limit;
-      }));
+  if (comparison.tiles == 0) return std::nullopt;
+  comparison.ratio = ratio.result();
+  comparison.along_x = x.result();
+  comparison.along_y = y.result();
+  comparison.anisotropy = x_over_y.result();
+  comparison.anisotropy.value =
+      std::min(comparison.anisotropy.value, 1.0 / comparison.anisotropy.value);
   return comparison;
 }
 

@@ -13,12 +13,10 @@ namespace biotomy::acquisition {
 /// does most of what the tile contains; blur takes the high frequencies first. (Of a wave of one
 /// frequency it would take nothing: tissue is none.) 0 without detail.
 ///
-/// The nearest relative is the ratio of high to low frequency energy of Brenner-type focus measures
-/// (e.g. Subbarao, Choi and Nikzad, "Focusing techniques", Optical Engineering 32 (1993)
-/// 2824-2836); the difference is that both energies are freed from noise.
+/// The nearest relatives are focus measures that divide high by low frequency energy (e.g.
+/// Subbarao, Choi and Nikzad, "Focusing techniques", Optical Engineering 32 (1993) 2824-2836); the
+/// difference is that both energies are freed from noise.
 double sharpness(const TileMeasures& tile);
-double sharpness_along_x(const TileMeasures& tile);
-double sharpness_along_y(const TileMeasures& tile);
 
 /// Of a frame: the median over its tiles, each weighted by its signal. 0 without detail. For frames
 /// of one scene only: otherwise compare tile by tile.
@@ -33,19 +31,22 @@ struct SharpnessComparison {
   };
 
   Estimate ratio;
+  Estimate along_x;
+  Estimate along_y;
   Estimate anisotropy;  ///< of the less sharp axis over the sharper: below 1 when smeared along one
   int tiles = 0;        ///< that could be compared
   int below = 0;        ///< of them below the limit asked for
 };
 
 /// Compares tile by tile with the median of the references, frames of the same size: this layer's
-/// sharpest, or the last layers'. Both are medians over the tiles, each weighted by its
-/// signal-to-noise ratio up to 20; a tile counts when its gradients carry more signal than noise.
-/// Nothing when fewer than four tiles can be compared. `limit` only counts.
+/// sharpest, or the last layers'. Of each tile two quotients are compared: the curvature's energy
+/// over the gradient's, and the gradient's over that at half the resolution, which feels blur less
+/// and noise much less. Each gives a median over the tiles, weighted by how sure a tile is and by
+/// how much its coarse detail resembles the references'; the two are combined by their standard
+/// errors. Nothing when fewer than four tiles can be compared. `limit` only counts.
 ///
-/// A blur that takes 15 % of the contrast at half the Nyquist frequency leaves 0.84 to 0.90 on the
-/// twin's tissue; faces that follow one another differ by 0.015 (standard deviation, 0.5
-/// megapixel).
+/// A blur that takes 15 % of the contrast at half the Nyquist frequency leaves 0.87 on the twin's
+/// tissue; see docs/quality.md for how it scatters.
 std::optional<SharpnessComparison> compare_sharpness(
     const FrameMeasures& frame, std::span<const std::shared_ptr<const FrameMeasures>> references,
     double limit);

@@ -9,26 +9,43 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr double kBenefitOfDoubt = 2.0;  ///< standard errors
+constexpr double kBenefitOfDoubt = 1.0;  ///< standard errors
+constexpr double kSmeared = 0.95;        ///< one axis' ratio over the other's, below: it moved
 constexpr const char* kBlurred = "blurred";
 
 double lowered(double limit, double error) {
   return limit * std::exp(-kBenefitOfDoubt * error);
 }
 
-void judge_ratio(const SharpnessComparison& found, const std::string& to,
-                 const QualityThresholds& thresholds, Judgement& judgement) {
+void judge_both_axes(const SharpnessComparison& found, const std::string& to,
+                     const QualityThresholds& thresholds, Judgement& judgement) {
   const std::string reason = "the sharpness is %.3f of " + to + ", below %.3f; " +
                              std::to_string(found.below) + " of " + std::to_string(found.tiles) +
                              " tiles";
   judgement.at_least("sharpness_ratio", found.ratio.value,
                      lowered(thresholds.minimum_sharpness_ratio, found.ratio.error), kBlurred,
                      reason.c_str());
-  judgement.at_least("sharpness_anisotropy", found.anisotropy.value,
-                     lowered(thresholds.minimum_sharpness_anisotropy, found.anisotropy.error),
-                     "smeared",
-                     "along one axis the frame has %.3f of the other's sharpness, below %.3f: "
-                     "something vibrated or moved");
+}
+
+void judge_weaker_axis(const SharpnessComparison& found, const std::string& to, bool smeared,
+                       const QualityThresholds& thresholds, Judgement& judgement) {
+  const bool is_x = found.along_x.value < found.along_y.value;
+  const SharpnessComparison::Estimate& weaker = is_x ? found.along_x : found.along_y;
+  const std::string reason = std::string("along ") + (is_x ? "x" : "y") +
+                             " the sharpness is %.3f of " + to + ", below %.3f" +
+                             (smeared ? ": something vibrated or moved" : "");
+  judgement.at_least("sharpness_along_axis", weaker.value,
+                     lowered(thresholds.minimum_sharpness_along_axis, weaker.error),
+                     smeared ? "smeared" : kBlurred, reason.c_str());
+}
+
+/// What the frame is most likely comes first: it gives the reason.
+void judge_ratio(const SharpnessComparison& found, const std::string& to,
+                 const QualityThresholds& thresholds, Judgement& judgement) {
+  const bool smeared = found.anisotropy.value < kSmeared;
+  if (smeared) judge_weaker_axis(found, to, smeared, thresholds, judgement);
+  judge_both_axes(found, to, thresholds, judgement);
+  if (!smeared) judge_weaker_axis(found, to, smeared, thresholds, judgement);
 }
 
 }  // namespace

@@ -7,9 +7,10 @@
 
 namespace biotomy::acquisition {
 
-/// Whether a frame of `layer` is as sharp as it could be (`sharpness_ratio`), and no less so along
-/// one axis than along the other, as a movement leaves it (`sharpness_anisotropy`). The result has
-/// its measures already.
+/// Whether a frame of `layer` is as sharp as it could be (`sharpness_ratio`), and so along each
+/// axis
+/// (`sharpness_along_axis`, of the less sharp: a movement blurs one of them). The result has its
+/// measures already.
 ///
 /// After a focus search at this layer the search's sharpest frame decides: it shows the same face,
 /// whatever that contains. Otherwise the last accepted layers do: what they contain is nearly the
@@ -18,7 +19,7 @@ namespace biotomy::acquisition {
 /// (`sharpness_to_record`), with a wide limit: a search that ended on a wrong peak finds its own
 /// frames sharp.
 ///
-/// Limits are lowered by two standard errors of the ratio: a small frame, or one with little
+/// Limits are lowered by a standard error of the ratio: a small frame, or one with little
 /// detail, has the benefit of the doubt.
 void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
                      const QualityThresholds& thresholds, Judgement& judgement);

@@ -249,11 +249,10 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
              "leaves 0.87");
   thresholds.minimum_sharpness_to_record =
       number(table, "minimum_sharpness_to_record", thresholds.minimum_sharpness_to_record, "", 0.0,
-             10.0, "likewise, after a focus search relative to the last layers");
-  thresholds.minimum_sharpness_anisotropy = number(
-      table, "minimum_sharpness_anisotropy", thresholds.minimum_sharpness_anisotropy, "", 0.0, 1.0,
-      "of a frame's two axes the less sharp one's ratio relative to the other's; below it the "
-      "frame is smeared");
+             10.0, "sharpness of a frame after a focus search, relative to the last layers");
+  thresholds.minimum_sharpness_along_axis = number(
+      table, "minimum_sharpness_along_axis", thresholds.minimum_sharpness_along_axis, "", 0.0, 10.0,
+      "likewise as minimum_sharpness_ratio, along the less sharp of the two axes");
   thresholds.minimum_brightness =
       number(table, "minimum_brightness", thresholds.minimum_brightness, "", 0.0, 1.0,
              "mean brightness, of full scale; below it the frame is black");

@@ -47,10 +47,10 @@ TEST(SharpnessComparison, SeesABlurThatTakesASeventhOfTheContrastWhateverTheLaye
     const double depth = 20.0 * layer;
     if (before.size() == 8) {
       const SharpnessComparison good = compared(measured(camera.photograph(depth)), before);
-      EXPECT_GT(good.ratio.value * std::exp(2.0 * good.ratio.error), 0.92) << layer;
+      EXPECT_GT(good.ratio.value * std::exp(good.ratio.error), 0.93) << layer;
       const SharpnessComparison blurred =
           compared(measured(camera.photograph(depth, 0.0, 0.0, kLosing15Percent)), before);
-      EXPECT_LT(blurred.ratio.value * std::exp(2.0 * blurred.ratio.error), 0.92) << layer;
+      EXPECT_LT(blurred.ratio.value * std::exp(blurred.ratio.error), 0.93) << layer;
       EXPECT_GT(blurred.below, blurred.tiles / 2);
       before.erase(before.begin());
     }
