@@ -42,6 +42,15 @@ float narrowing(const PhantomSettings& s, double z_um) {
   return static_cast<float>(kHalfSpecimen * (1.0 - std::sqrt(1.0 - away * away)));
 }
 
+/// The row of a section through a noise, whose lattice is turned about x. Parallel to the lattice,
+/// all of a section would lie equally far from the lattice's planes, where the noise is faintest,
+/// and textures would grow finer and coarser with the depth, everywhere at once.
+GradientNoise::Line row_of(const GradientNoise& noise, double y_um, double z_um) {
+  constexpr double kCosine = 0.8;
+  constexpr double kSine = 0.6;
+  return noise.line(kCosine * y_um - kSine * z_um, kSine * y_um + kCosine * z_um);
+}
+
 Colour toned(Tissue tissue, float tone) {
   return (1.0F + tone) * colour_of(tissue);
 }
@@ -58,13 +67,13 @@ class Phantom::Brush {
         outlines_(phantom.anatomy_.row(
             static_cast<float>((y_um - phantom.half_height_um_) / phantom.half_height_um_),
             static_cast<float>(z_um / phantom.anatomy_depth_um_))),
-        clouds_(phantom.clouds_.line(y_um, z_um)),
-        grain_(phantom.grain_.line(y_um, z_um)),
-        lobules_(phantom.lobules_.line(y_um, z_um)),
+        clouds_(row_of(phantom.clouds_, y_um, z_um)),
+        grain_(row_of(phantom.grain_, y_um, z_um)),
+        lobules_(row_of(phantom.lobules_, y_um, z_um)),
         fibres_(phantom.fibres_.line(y_um, z_um)),
         fine_fibres_(phantom.fine_fibres_.line(y_um, z_um)),
-        spongiosa_(phantom.spongiosa_.line(y_um, z_um)),
-        fine_spongiosa_(phantom.fine_spongiosa_.line(y_um, z_um)),
+        spongiosa_(row_of(phantom.spongiosa_, y_um, z_um)),
+        fine_spongiosa_(row_of(phantom.fine_spongiosa_, y_um, z_um)),
         // Fibres lean: forward above the joint, backward below it.
         lean_um_(0.22 * (y_um - phantom.half_height_um_) +
                  0.04 * phantom.half_height_um_ *

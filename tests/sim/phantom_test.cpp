@@ -52,6 +52,29 @@ TEST(Phantom, HasTheAnatomyWhereItBelongs) {
   }
 }
 
+TEST(Phantom, HasEquallyFineTexturesAtEveryDepth) {
+  PhantomSettings settings;
+  settings.begins_um = 1e6;  // casting alone
+  const Phantom phantom(settings);
+  // The curvature along x over squares of a few millimetres, two cells of the finest texture deep.
+  double least = 1e9;
+  double most = 0;
+  std::vector<Colour> row(200);
+  for (double z = 0; z < 140; z += 10) {
+    double sum = 0;
+    for (double y = 0; y < 2000; y += 20) {
+      phantom.paint_row(0, 10, y, z, row);
+      for (std::size_t i = 1; i + 1 < row.size(); ++i) {
+        const double curvature = row[i - 1].g - 2 * row[i].g + row[i + 1].g;
+        sum += curvature * curvature;
+      }
+    }
+    least = std::min(least, sum);
+    most = std::max(most, sum);
+  }
+  EXPECT_LT(most, 1.15 * least);
+}
+
 TEST(Phantom, EndsRoundedWhereItIsToldTo) {
   const Phantom phantom{PhantomSettings{.begins_um = 100, .ends_um = 1000, .end_um = 200}};
   const auto width = [&](double z_um) {
