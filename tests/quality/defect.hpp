@@ -38,11 +38,10 @@ struct DefectKind {
   double harmless;  ///< up to it the frame is as good as any; less than `least`: never
   double harmful;   ///< from it on the frame must be rejected
   double most;
-  int weight;  ///< how often it is made, relative to the others
-  /// The reasons that name it, and the metrics that are meant for it: of those the first that a
-  /// frame has.
-  std::array<std::string_view, 4> slugs;
-  std::array<std::string_view, 3> metrics;
+  int weight;                             ///< how often it is made, relative to the others
+  std::array<std::string_view, 3> slugs;  ///< of the reasons that name it
+  std::string_view metric;                ///< that is meant for it
+  bool is_change = false;  ///< the metric is a change up or down, of which the amount counts
 };
 
 /// All but `none`.

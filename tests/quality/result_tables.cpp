@@ -36,12 +36,12 @@ std::string detection_row(const DefectResult& result) {
       result.harmful.rejected == 0
           ? "–"
           : percent(static_cast<double>(result.named) / result.harmful.rejected);
-  const bool has_metric = !result.metric.empty();
+  const bool has_metric = result.has_metric();
   return std::string("| ") + result.kind->name + " | " + strength(*result.kind) + " | " +
          std::to_string(result.harmful.frames) + " | " + percent(result.harmful.share()) + " | " +
          number("%g", 100.0 * result.goal()) + " | " + named + " | " +
          number("%.2f", 100.0 * result.alarms.share()) + " | " +
-         (has_metric ? "`" + result.metric + "`" : "none") + " | " +
+         (has_metric ? "`" + std::string(result.kind->metric) + "`" : "none") + " | " +
          (has_metric ? number("%.4f", area_under_roc(result.values)) : "–") + " | " +
          (has_metric ? percent(detection_at(result.values, SetResults::kMostFalseAlarms)) : "–") +
          " |\n";
@@ -109,13 +109,13 @@ std::string json(const SetResults& results) {
                          {"good", rejections(result.alarms)},
                          {"goal", result.goal()},
                          {"reached", result.reached()}};
-    if (!result.metric.empty()) {
+    if (result.has_metric()) {
       nlohmann::json points = nlohmann::json::array();
       for (const double alarms : {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}) {
         points.push_back(
             {{"false_alarms", alarms}, {"detected", detection_at(result.values, alarms)}});
       }
-      entry["metric"] = result.metric;
+      entry["metric"] = result.kind->metric;
       entry["roc_area"] = area_under_roc(result.values);
       entry["roc"] = std::move(points);
     }

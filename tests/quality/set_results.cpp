@@ -10,12 +10,8 @@ bool names(const DefectKind& kind, const std::string& slug) {
   return !slug.empty() && std::ranges::find(kind.slugs, slug) != kind.slugs.end();
 }
 
-/// Of the metrics that are meant for the defect the first that there is.
-const acquisition::Metric* metric_for(const DefectKind& kind, const JudgedFrame& frame) {
-  for (const std::string_view name : kind.metrics) {
-    if (const acquisition::Metric* metric = frame.metric(name)) return metric;
-  }
-  return nullptr;
+double value_of(const acquisition::Metric& metric, const DefectKind& kind) {
+  return kind.is_change ? std::fabs(metric.value) : metric.value;
 }
 
 void add_defective(const JudgedFrame& frame, DefectResult& result) {
@@ -26,7 +22,9 @@ void add_defective(const JudgedFrame& frame, DefectResult& result) {
       .add(frame);
   if (frame.demand != Demand::reject) return;
   result.named += static_cast<int>(frame.rejected && names(kind, frame.slug));
-  if (const auto* metric = metric_for(kind, frame)) result.values.bad.push_back(metric->value);
+  if (const auto* metric = frame.metric(kind.metric)) {
+    result.values.bad.push_back(value_of(*metric, kind));
+  }
   if (kind.most <= kind.harmful) return;
   const double place = std::log(frame.strength / kind.harmful) / std::log(kind.most / kind.harmful);
   result.by_strength.at(static_cast<std::size_t>(std::clamp(3.0 * place, 0.0, 2.0))).add(frame);
@@ -35,11 +33,11 @@ void add_defective(const JudgedFrame& frame, DefectResult& result) {
 void add_good(const JudgedFrame& frame, DefectResult& result) {
   ++result.alarms.frames;
   result.alarms.rejected += static_cast<int>(frame.rejected && names(*result.kind, frame.slug));
-  if (const auto* metric = metric_for(*result.kind, frame)) {
-    result.metric = metric->name;
-    result.values.good.push_back(metric->value);
-    // Nearly all good frames are on the right side of the limit.
-    result.values.low_is_bad = metric->passed == (metric->value > metric->limit);
+  if (const auto* metric = frame.metric(result.kind->metric)) {
+    const double value = value_of(*metric, *result.kind);
+    result.values.good.push_back(value);
+    // What passes above its limit must not be low.
+    result.values.low_is_bad = metric->passed == (value > metric->limit);
   }
 }
 

@@ -29,13 +29,15 @@ struct DefectResult {
   /// others by ratio.
   std::array<Rejections, 3> by_strength;
   int named = 0;  ///< of the harmful ones that were rejected: for a reason that names the defect
-  Rejections alarms;   ///< of the good frames, for such a reason
-  std::string metric;  ///< that is meant for the defect; empty: the assessment has none
-  MetricValues values;
+  Rejections alarms;    ///< of the good frames, for such a reason
+  MetricValues values;  ///< of the metric that is meant for the defect, where a frame has it
 
   /// The part of the harmful frames that must be rejected.
   double goal() const;
   bool reached() const { return harmful.share() >= goal(); }
+
+  /// Whether the assessment has the metric.
+  bool has_metric() const { return !values.good.empty() && !values.bad.empty(); }
 };
 
 /// What the assessment made of a set.

@@ -1,5 +1,8 @@
 #include "tests/quality/set_results.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,10 +58,22 @@ TEST(SetResults, CountsEachDefectByWhatWasDemanded) {
 
 TEST(SetResults, FindsTheMetricThatIsMeantForTheDefectAndWhichSideOfItIsBad) {
   const SetResults results = results_of({good(), blurred(50, "blurred", 0.5)});
-  EXPECT_EQ(of(results, Defect::defocus).metric, "sharpness_ratio");
+  EXPECT_TRUE(of(results, Defect::defocus).has_metric());
   EXPECT_TRUE(of(results, Defect::defocus).values.low_is_bad);
   EXPECT_EQ(area_under_roc(of(results, Defect::defocus).values), 1.0);
-  EXPECT_EQ(of(results, Defect::frost).metric, "");
+  EXPECT_FALSE(of(results, Defect::frost).has_metric());
+}
+
+TEST(SetResults, TakesAChangeOfLightByItsAmount) {
+  const auto lit = [](Defect defect, Demand demand, double change) {
+    JudgedFrame frame = judged(defect, 20, demand, "good");
+    frame.metrics = {{"brightness", change, 0.05, std::fabs(change) <= 0.05}};
+    return frame;
+  };
+  const SetResults results =
+      results_of({lit(Defect::none, Demand::accept, 0.01), lit(Defect::none, Demand::accept, -0.02),
+                  lit(Defect::lamp_dark, Demand::reject, -0.2)});
+  EXPECT_EQ(area_under_roc(of(results, Defect::lamp_dark).values), 1.0);
 }
 
 TEST(SetResults, MissesItsGoalByOneFrameTooMany) {
