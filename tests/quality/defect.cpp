@@ -27,7 +27,7 @@ constexpr std::array kKinds{
                .most = 100.0,
                .weight = 3,
                .slugs = {"smeared", "blurred"},
-               .metric = "sharpness_anisotropy"},
+               .metric = "sharpness_along_axis"},
     DefectKind{.defect = Defect::lamp_dark,
                .name = "lamp too dark",
                .unit = "% of the light",
