@@ -27,6 +27,7 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
   expectation_.type = settings.plan.bits == 16 ? CV_16UC3 : CV_8UC3;
   expectation_.faces = start.recalled.faces;
   expectation_.sharpness = start.recalled.sharpness;
+  expectation_.surfaces = start.recalled.surfaces;
   if (const auto& focus = start.journal.last_focus) {
     focus_memory_.remember(focus->layer, {focus->column, focus->sharpness});
   }
@@ -205,6 +206,7 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
   if (const auto& ratio = in_hand_->assessment.sharpness_to_peak) focus_memory_.accepted(*ratio);
   expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
   expectation_.sharpness.accept(in_hand_->assessment.measures);
+  expectation_.surfaces.accept(layer_, in_hand_->assessment.surface, in_hand_->assessment.light);
   last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
   in_hand_.reset();
   parts_.feed.offer(layer_);

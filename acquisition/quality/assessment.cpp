@@ -7,7 +7,9 @@
 
 #include "acquisition/quality/face_judgement.hpp"
 #include "acquisition/quality/judgement.hpp"
+#include "acquisition/quality/light_judgement.hpp"
 #include "acquisition/quality/sharpness_judgement.hpp"
+#include "acquisition/quality/surface_judgement.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -71,6 +73,9 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   judge_moment(frame, expectation, judgement);
 
   Assessment& result = judgement.result();
+  result.face = std::make_shared<const FacePrint>(take_face_print(image));
+  judge_rows(expectation.faces, thresholds, judgement);
+
   result.measures = std::make_shared<const FrameMeasures>(measure_frame(image));
   const Light light = light_of(*result.measures);
   judgement.at_least(
@@ -82,10 +87,13 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   judgement.at_most("clipped_fraction", light.clipped, thresholds.maximum_clipped_fraction,
                     "clipped", "%.4f of the pixels are at full scale, more than %.4f");
 
-  judge_sharpness(expectation.sharpness, expectation.layer, thresholds, judgement);
+  result.surface = std::make_shared<const SurfacePrint>(take_surface_print(image));
+  result.light = find_light(*result.surface, expectation.surfaces);
+  // What lies on a face changes its light too.
+  judge_surface(image, expectation.surfaces, thresholds, judgement);
+  judge_light(expectation.surfaces, thresholds, judgement);
 
-  result.face = std::make_shared<const FacePrint>(take_face_print(image));
-  judge_rows(expectation.faces, thresholds, judgement);
+  judge_sharpness(expectation.sharpness, expectation.layer, thresholds, judgement);
   judge_face_change(expectation.faces, thresholds, judgement);
   return judgement.finish();
 }

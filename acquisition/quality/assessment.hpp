@@ -12,6 +12,7 @@
 #include "acquisition/quality/face_record.hpp"
 #include "acquisition/quality/frame_measures.hpp"
 #include "acquisition/quality/sharpness_record.hpp"
+#include "acquisition/quality/surface_record.hpp"
 #include "firmware_bridge/camera/frame.hpp"
 
 namespace biotomy::acquisition {
@@ -53,6 +54,8 @@ struct Assessment {
   // None of these when the frame is not of the sample's size.
   std::shared_ptr<const FacePrint> face;
   std::shared_ptr<const FrameMeasures> measures;
+  std::shared_ptr<const SurfacePrint> surface;
+  FrameLight light;
 };
 
 /// Thresholds of the metrics, each under the metric's name.
@@ -60,12 +63,21 @@ struct QualityThresholds {
   double minimum_sharpness_ratio = 0.93;
   double minimum_sharpness_to_record = 0.75;  ///< after a search of the same layer
   double minimum_sharpness_along_axis = 0.91;
-  double minimum_brightness = 0.05;        ///< mean, of full scale
-  double maximum_brightness = 0.95;        ///< mean, of full scale
-  double maximum_clipped_fraction = 0.05;  ///< of pixels with a colour at full scale
-  double maximum_dead_rows = 0.01;         ///< part of the rows; see dead_share
-  double maximum_repeated_rows = 0.0;      ///< part of the noisy rows; see repeated_rows
-  double minimum_face_change = 0.0015;     ///< of the fine detail's energy; 0: not judged
+  double minimum_brightness = 0.05;         ///< mean, of full scale
+  double maximum_brightness = 0.95;         ///< mean, of full scale
+  double maximum_clipped_fraction = 0.05;   ///< of pixels with a colour at full scale
+  double maximum_brightness_change = 0.05;  ///< of the light, against the last layers'
+  double maximum_unevenness = 0.08;         ///< likewise: how much it differs over the frame
+  double maximum_colour_cast = 0.035;       ///< likewise: how much it differs between the colours
+  double maximum_brightness_drift = 0.25;   ///< of the casting material, against the first layer's
+  double maximum_colour_drift = 0.1;        ///< likewise: how much it differs between the colours
+  double maximum_shift = 3.0;               ///< pixels, against the last layer
+  double maximum_debris = 0.0025;           ///< part of the frame
+  double maximum_frost = 0.02;              ///< part of the frame
+  double maximum_glare = 0.0005;            ///< part of the frame
+  double maximum_dead_rows = 0.01;          ///< part of the rows; see dead_share
+  double maximum_repeated_rows = 0.0;       ///< part of the noisy rows; see repeated_rows
+  double minimum_face_change = 0.0015;      ///< of the fine detail's energy; 0: not judged
   /// And of the least that the last faces changed.
   double minimum_face_change_ratio = 0.33;
   double maximum_old_part = 0.0;  ///< of the frame, from an edge on, may still be the face before
@@ -82,6 +94,7 @@ struct FrameExpectation {
   std::chrono::nanoseconds asked_at{0};            ///< the camera, by its clock; 0 is unknown
   FaceRecord faces{};                              ///< the faces and frames before
   SharpnessRecord sharpness{};
+  SurfaceRecord surfaces{};
 };
 
 /// Judges one frame. A frame that is of another size or kind than the sample's is rejected before

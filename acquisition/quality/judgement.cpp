@@ -1,6 +1,7 @@
 #include "acquisition/quality/judgement.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace biotomy::acquisition {
@@ -29,6 +30,11 @@ bool Judgement::at_least(const char* name, double value, double limit, const cha
 bool Judgement::at_most(const char* name, double value, double limit, const char* slug,
                         const char* format) {
   return add(name, value, limit, value <= limit, slug, format);
+}
+
+bool Judgement::within(const char* name, double value, double limit, const char* slug,
+                       const char* format) {
+  return add(name, value, limit, std::abs(value) <= limit, slug, format);
 }
 
 void Judgement::leave_open(const std::string& what) {

@@ -16,6 +16,8 @@ class Judgement {
   /// fail. Whether it passed.
   bool at_least(const char* name, double value, double limit, const char* slug, const char* format);
   bool at_most(const char* name, double value, double limit, const char* slug, const char* format);
+  /// The value may be above or below zero by the limit.
+  bool within(const char* name, double value, double limit, const char* slug, const char* format);
 
   /// Something that could not be judged, in words: it becomes part of the reason for accepting.
   void leave_open(const std::string& what);

@@ -4,9 +4,31 @@
 #include <memory>
 
 #include "acquisition/quality/face_judgement.hpp"
+#include "acquisition/quality/light_judgement.hpp"
 #include "acquisition/records/journal_reader.hpp"
 
 namespace biotomy::acquisition {
+namespace {
+
+/// The casting material's colour in the first layer that shows it, of the sample's first ones.
+std::optional<CastingColour> first_casting(const JournalReader& journal) {
+  constexpr std::int64_t kLayers = 16;
+  for (const LayerRow& layer : journal.committed_layers(1, kLayers)) {
+    CastingColour casting;
+    std::size_t known = 0;
+    for (const Metric& metric : layer.metrics) {
+      for (std::size_t c = 0; c < kCastingMetrics.size(); ++c) {
+        if (metric.name != kCastingMetrics.at(c)) continue;
+        casting.level[static_cast<int>(c)] = metric.value;
+        ++known;
+      }
+    }
+    if (known == kCastingMetrics.size()) return casting;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t last_committed,
                            const std::function<cv::Mat(const std::filesystem::path&)>& read_layer) {
@@ -21,11 +43,15 @@ RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t
       if (metric.name == kFaceChange) recalled.faces.recall(metric.value);
     }
   }
+  if (const auto casting = first_casting(journal)) recalled.surfaces.recall(*casting);
   const cv::Mat image = read_layer(sample.layer_path(last_committed));
   const auto face = std::make_shared<const FacePrint>(take_face_print(image));
   recalled.faces.saw(*face);
   recalled.faces.accept(last_committed, face, {});
   recalled.sharpness.accept(std::make_shared<const FrameMeasures>(measure_frame(image)));
+  const auto surface = std::make_shared<const SurfacePrint>(take_surface_print(image));
+  recalled.surfaces.accept(last_committed, surface,
+                           FrameLight{.casting = learn_casting(surface->light)});
   return recalled;
 }
 

@@ -8,6 +8,7 @@
 
 #include "acquisition/quality/face_record.hpp"
 #include "acquisition/quality/sharpness_record.hpp"
+#include "acquisition/quality/surface_record.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
@@ -15,6 +16,7 @@ namespace biotomy::acquisition {
 struct RecalledFaces {
   FaceRecord faces;
   SharpnessRecord sharpness;
+  SurfaceRecord surfaces;
 };
 
 /// What a job that goes on must know of the faces before: the last committed layer's image is read

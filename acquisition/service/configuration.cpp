@@ -229,6 +229,35 @@ FocusSettings read_focus(const CheckedTable& table) {
   return focus;
 }
 
+void read_light_and_surface(const CheckedTable& table, QualityThresholds& thresholds) {
+  thresholds.maximum_brightness_change =
+      number(table, "maximum_brightness_change", thresholds.maximum_brightness_change, "", 0.0,
+             10.0, "the light may be stronger or weaker than the last layers' by this part");
+  thresholds.maximum_unevenness =
+      number(table, "maximum_unevenness", thresholds.maximum_unevenness, "", 0.0, 10.0,
+             "likewise, in one part of the frame against another");
+  thresholds.maximum_colour_cast =
+      number(table, "maximum_colour_cast", thresholds.maximum_colour_cast, "", 0.0, 10.0,
+             "likewise, in one colour against another");
+  thresholds.maximum_brightness_drift =
+      number(table, "maximum_brightness_drift", thresholds.maximum_brightness_drift, "", 0.0, 10.0,
+             "the casting material may be brighter or darker than in the first layer by this part");
+  thresholds.maximum_colour_drift =
+      number(table, "maximum_colour_drift", thresholds.maximum_colour_drift, "", 0.0, 10.0,
+             "likewise, in one colour against another");
+  thresholds.maximum_shift =
+      number(table, "maximum_shift", thresholds.maximum_shift, "pixels", 0.0, 10000.0,
+             "the block may lie beside where it lay in the last layer; beyond, it came loose");
+  thresholds.maximum_debris =
+      number(table, "maximum_debris", thresholds.maximum_debris, "", 0.0, 1.0,
+             "part of the frame that may have colours that the last layers have nowhere near; 1: "
+             "not judged");
+  thresholds.maximum_frost = number(table, "maximum_frost", thresholds.maximum_frost, "", 0.0, 1.0,
+                                    "part of the frame that may be under a whitish veil");
+  thresholds.maximum_glare = number(table, "maximum_glare", thresholds.maximum_glare, "", 0.0, 1.0,
+                                    "part of the frame that may reflect the lamp");
+}
+
 void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
                   LadderSettings& ladder) {
   ladder.max_attempts = count(table, "max_attempts", ladder.max_attempts, 1, 100,
@@ -262,6 +291,7 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
   thresholds.maximum_clipped_fraction =
       number(table, "maximum_clipped_fraction", thresholds.maximum_clipped_fraction, "", 0.0, 1.0,
              "part of the pixels that may be at full scale in a colour");
+  read_light_and_surface(table, thresholds);
   thresholds.maximum_dead_rows =
       number(table, "maximum_dead_rows", thresholds.maximum_dead_rows, "", 0.0, 1.0,
              "part of a frame's rows that may hold one value all along where the face before "

@@ -1,0 +1,51 @@
+#include "acquisition/quality/surface_judgement.hpp"
+
+#include <string>
+
+#include "acquisition/quality/surface_defects.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+/// Where tissue comes up over larger areas some of it has, in small places, colours of its own:
+/// this part of the area.
+constexpr double kNewPerArrived = 0.15;
+
+void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
+                 const QualityThresholds& thresholds, Judgement& judgement) {
+  const std::optional<Shift> shift = measure_shift(now.border, surfaces.surface()->border);
+  if (!shift) return;
+  const std::string moved =
+      "the block lies %.2f pixels beside where it lay in layer " +
+      std::to_string(surfaces.layer()) +
+      ", more than %.2f: it came loose or is not parked; if it may stay so, raise "
+      "quality.maximum_shift for one layer";
+  judgement.at_most("shift", shift->length(), thresholds.maximum_shift, "shifted", moved.c_str());
+  judgement.within("shift_x", shift->x, thresholds.maximum_shift, "shifted", moved.c_str());
+  judgement.within("shift_y", shift->y, thresholds.maximum_shift, "shifted", moved.c_str());
+}
+
+}  // namespace
+
+void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
+                   const QualityThresholds& thresholds, Judgement& judgement) {
+  const SurfacePrint& now = *judgement.result().surface;
+  const SurfacePrint* before = surfaces.surface();
+  if (before == nullptr || now.thumbnail.empty() ||
+      before->thumbnail.size() != now.thumbnail.size()) {
+    return;
+  }
+  judge_shift(now, surfaces, thresholds, judgement);
+  const SurfaceDefects found =
+      find_surface_defects(image, now, surfaces, judgement.result().light.measured.change);
+  judgement.at_most("glare", found.glare, thresholds.maximum_glare, "glare",
+                    "%.4f of the frame is glare, more than %.4f: ice or liquid reflects the lamp");
+  judgement.at_most("frost", found.frost, thresholds.maximum_frost, "frost",
+                    "%.4f of the frame is under a whitish veil, more than %.4f: frost on the face");
+  judgement.at_most("debris", found.debris,
+                    thresholds.maximum_debris + kNewPerArrived * found.arrived, "debris",
+                    "%.4f of the frame has colours that the layers before have nowhere near, more "
+                    "than %.4f: debris on the face");
+}
+
+}  // namespace biotomy::acquisition
