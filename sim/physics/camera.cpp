@@ -63,7 +63,7 @@ Photograph Camera::take(const Scene& begin, const Scene& end, const ExposureSett
     const double moved_um = std::fabs(end.traverse_um - begin.traverse_um) +
                             swing_um(0.5 * (begin.vibration_mm_s + end.vibration_mm_s));
     smear_along_rows(light, moved_um / optics_.view.pixel_um);
-    blur(light, blur_sigma_um(optics_.lens, photograph.defocus_um) / optics_.view.pixel_um);
+    blur_tilted(light, optics_.lens, optics_.view.pixel_um, photograph.defocus_um, optics_.tilt);
   }
   if (!end.lamp_field.is_even()) light_up(light, end.lamp_field);
   const double lamp =

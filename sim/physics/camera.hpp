@@ -6,6 +6,7 @@
 
 #include "sim/physics/defocus.hpp"
 #include "sim/physics/face_painter.hpp"
+#include "sim/physics/face_tilt.hpp"
 #include "sim/physics/lamp_field.hpp"
 #include "sim/physics/sensor.hpp"
 #include "sim/physics/surface_film.hpp"
@@ -32,12 +33,13 @@ struct CameraOptics {
   /// The focal plane lies at the feed coordinate column + offset. Nobody but the twin knows it:
   /// the daemon has to find it by focusing.
   double column_offset_um = 350;
+  FaceTilt tilt{};
 };
 
 struct Photograph {
   cv::Mat image;  ///< CV_8UC3 or CV_16UC3, R, G, B
   std::uint64_t number = 0;
-  double defocus_um = 0;  ///< face − focal plane, in the middle of the exposure
+  double defocus_um = 0;  ///< face − focal plane, in the middle of exposure and frame
   bool face_in_view = false;
 };
 

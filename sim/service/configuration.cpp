@@ -243,6 +243,11 @@ void read_camera(const CheckedTable& camera, Configuration& c) {
       number("column_offset", 350, "um", -kFarUm, kFarUm,
              "the focal plane's feed coordinate less the column's position; the daemon has to "
              "find it");
+  c.optics.tilt.across_um =
+      number("tilt_across", 0, "um", -kFarUm, kFarUm,
+             "the face lies so much deeper at the right edge of the frame than at the left");
+  c.optics.tilt.down_um =
+      number("tilt_down", 0, "um", -kFarUm, kFarUm, "likewise at the lower edge than at the upper");
   c.sensor.nominal_exposure_us =
       1e3 * number("nominal_exposure", 10, "ms", 0.01, 10000, "shows true levels at gain 1");
   c.sensor.photons_at_white =

@@ -55,6 +55,21 @@ TEST(Camera, IsSharpestInTheFocalPlaneAndBlursAlikeOnBothSides) {
   EXPECT_NEAR(sharpness(beyond.image), sharpness(before.image), 0.01 * sharp);
 }
 
+TEST(Camera, ShowsATiltedFaceSharpWhereTheFocalPlaneMeetsIt) {
+  Studio studio;
+  studio.sensor.read_noise_levels = 0;
+  studio.sensor.photons_at_white = 1e9;
+  const cv::Mat flat = studio.take().image;
+  studio.optics.tilt.across_um = 8000;
+  const cv::Mat tilted = studio.take().image;
+  const auto kept = [&](int from, int to) {
+    return sharpness(tilted.colRange(from, to)) / sharpness(flat.colRange(from, to));
+  };
+  EXPECT_GT(kept(95, 105), 0.75);
+  EXPECT_LT(kept(50, 60), 0.6);
+  EXPECT_LT(kept(140, 150), 0.6);
+}
+
 TEST(Camera, RepeatsItsNoiseForTheSameSeedAndFrameNumber) {
   Studio studio;
   Camera one = studio.camera();
