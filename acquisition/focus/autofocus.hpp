@@ -1,73 +1,94 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "firmware_bridge/micrometres.hpp"
+#include "acquisition/focus/focus_bracket.hpp"
+#include "acquisition/focus/focus_settings.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::acquisition {
 
-struct FocusSettings {
-  bridge::Micrometres start{};         ///< where the first search of a sample begins
-  int points = 11;                     ///< of a sweep
-  bridge::Micrometres step{20.0};      ///< between them
-  int shifts = 8;                      ///< a sweep with its peak at the rim moves on so often
-  bridge::Micrometres backlash{50.0};  ///< every position is approached from below by so much
-  int every_layers = 10;               ///< a search at the latest after so many layers
-  double search_below_ratio = 0.95;    ///< and when the sharpness fell below this part of the peak
+/// Where a search for the focus begins and how far it may go.
+struct SearchPlan {
+  bridge::Micrometres predicted{};
+  bridge::Micrometres step{};  ///< of the first bracket
+  /// A peak farther than this from the predicted position is not believed; none: it may lie
+  /// anywhere within FocusSettings::reach.
+  std::optional<bridge::Micrometres> largest_change;
 };
 
-/// Looks for the camera column's position of greatest sharpness: a sweep of `points` positions
-/// around the predicted one, in growing order so that the backlash is always taken up on the same
-/// side, and a parabola through the peak and its neighbours. When the peak lies at the rim of the
-/// sweep, the sweep is repeated around that rim.
-/// It only thinks: the caller moves the column to what `next` asks for and reports what it saw.
+/// Looks for the position of greatest detail. A bracket of `points` positions around the predicted
+/// one, and a parabola through the logarithm of their detail. When the peak is not inside, the
+/// bracket moves towards it, with twice the step from the second time on; when it is flat, the step
+/// grows; when a wide bracket has found the peak, finer ones follow. At last a fresh frame at the
+/// peak confirms that it is no worse than the best of the bracket.
+///
+/// Positions are approached from below, so that the backlash is always taken up on the same side.
+/// It ends after 1 + `shifts` brackets, each with its confirmation, measures nowhere beyond `reach`
+/// from the predicted position and goes nowhere beyond `limits`.
+/// It only thinks: the caller moves to what `next` asks for and reports what it saw.
 class Autofocus {
  public:
   struct Request {
-    bridge::Micrometres column{};
+    bridge::Micrometres position{};
     bool measure = false;  ///< false: only to take up the backlash
   };
-  struct Point {
-    bridge::Micrometres column{};
-    double sharpness = 0.0;
-  };
 
-  /// The sweep stays inside `column`.
-  Autofocus(const FocusSettings& settings, bridge::Micrometres predicted,
-            bridge::AxisLimits column);
+  Autofocus(const FocusSettings& settings, const SearchPlan& plan, bridge::AxisLimits limits);
 
-  /// Where the column is to go now; nothing when the search has ended.
+  /// Where to go now; nothing when the search has ended.
   std::optional<Request> next() const;
 
-  void arrived();                   ///< answers a request that does not measure
-  void measured(double sharpness);  ///< answers a request that measures
+  void arrived();                                             ///< answers what does not measure
+  void measured(std::shared_ptr<const FrameMeasures> frame);  ///< answers what measures
 
-  /// After the end: the best position; nothing when no peak was found.
-  std::optional<Point> best() const { return best_; }
+  struct Found {
+    bridge::Micrometres position{};  ///< where the last frame, which confirmed it, was taken
+    /// Of the bracket that would suit this curve: its ends lose a quarter of the energy, enough to
+    /// tell from noise and little enough for a parabola.
+    bridge::Micrometres step{};
+    std::shared_ptr<const FrameMeasures> measures;  ///< of the frame that confirmed it
+    std::optional<FocusMap> map;
+  };
 
-  /// Everything that was measured, in its order.
-  const std::vector<Point>& points() const { return points_; }
+  /// After the end.
+  const std::optional<Found>& found() const { return found_; }
+  const std::string& why_not() const { return why_not_; }
 
  private:
-  void begin_sweep(bridge::Micrometres centre);
-  void end_sweep();
+  struct Candidate {
+    BracketVerdict verdict;
+    bridge::Micrometres step{};
+  };
+
+  void begin_bracket(bridge::Micrometres centre, bridge::Micrometres step);
+  void end_bracket();
+  void took_a_peak(const BracketVerdict& verdict);
+  void move_on(const BracketVerdict& verdict);
+  void widen(const BracketVerdict& verdict);
+  void confirm(const Candidate& candidate);
+  void end_confirmation(std::shared_ptr<const FrameMeasures> frame);
+  void out_of_brackets(const std::string& why);
+  void give_up(const std::string& why);
 
   FocusSettings settings_;
-  bridge::AxisLimits column_;
-  bridge::Micrometres first_{};  ///< of the sweep
-  int measured_ = 0;             ///< in this sweep
-  int shifts_left_;
+  SearchPlan plan_;
+  bridge::AxisLimits limits_;
+  bridge::AxisLimits window_;
+  int brackets_left_;
+  bridge::Micrometres first_{};  ///< of the bracket
+  bridge::Micrometres step_{};
   bool approached_ = false;
+  bool confirming_ = false;
   bool ended_ = false;
-  std::vector<Point> points_;
-  std::optional<Point> best_;
+  std::vector<BracketFrame> bracket_;
+  std::optional<Candidate> candidate_;
+  std::optional<BracketVerdict::Kind> last_kind_;
+  std::optional<Found> found_;
+  std::string why_not_;
 };
-
-/// The vertex of the parabola through three points at equal distances `step`, the middle one the
-/// highest. Its offset from the middle is at most half a step.
-Autofocus::Point parabola_peak(Autofocus::Point left, Autofocus::Point middle,
-                               Autofocus::Point right);
 
 }  // namespace biotomy::acquisition

@@ -1,13 +1,30 @@
 #include "acquisition/focus/focus_memory.hpp"
 
+#include <algorithm>
+
 namespace biotomy::acquisition {
+namespace {
+
+/// The part of a deviation that counts as drift: the rest is taken for chance.
+constexpr double kLearnt = 0.5;
+
+}  // namespace
 
 FocusMemory::FocusMemory(const FocusSettings& settings, bridge::Micrometres layer_thickness)
     : settings_(settings), layer_thickness_(layer_thickness) {}
 
-void FocusMemory::remember(std::int64_t layer, Autofocus::Point best) {
-  layer_ = layer;
-  best_ = best;
+void FocusMemory::remember(const FocusedLayer& focused) {
+  if (last_ && focused.layer > last_->layer) {
+    const auto layers = static_cast<double>(focused.layer - last_->layer);
+    const bridge::Micrometres deviation = focused.position - predicted(focused.layer);
+    // What lies beyond the limit of change is a new beginning, not a drift.
+    const bridge::Micrometres most = settings_.largest_change;
+    const bridge::Micrometres a_layer = (kLearnt / layers) * deviation;
+    if (a_layer <= most && -1.0 * most <= a_layer) {
+      drift_ = std::clamp(drift_ + a_layer, -1.0 * most, most);
+    }
+  }
+  last_ = focused;
   fell_ = false;
 }
 
@@ -16,15 +33,26 @@ void FocusMemory::accepted(double sharpness_ratio) {
 }
 
 const char* FocusMemory::why_search(std::int64_t layer) const {
-  if (!best_) return "no focus is known yet";
+  if (!last_) return "no focus is known yet";
   if (fell_) return "the sharpness fell";
-  if (layer - layer_ >= settings_.every_layers) return "the last search is long ago";
+  if (layer - last_->layer >= settings_.every_layers) return "the last search is long ago";
   return nullptr;
 }
 
 bridge::Micrometres FocusMemory::predicted(std::int64_t layer) const {
-  if (!best_) return settings_.start;
-  return best_->column + static_cast<double>(layer - layer_) * layer_thickness_;
+  if (!last_) return settings_.start;
+  return last_->position + static_cast<double>(layer - last_->layer) * (layer_thickness_ + drift_);
+}
+
+SearchPlan FocusMemory::plan(std::int64_t layer, bool anywhere) const {
+  SearchPlan plan{.predicted = predicted(layer), .step = settings_.step, .largest_change = {}};
+  if (!last_) return plan;
+  plan.step = std::max(plan.step, last_->step);
+  if (!anywhere) {
+    const std::int64_t layers = std::max<std::int64_t>(1, layer - last_->layer);
+    plan.largest_change = static_cast<double>(layers) * settings_.largest_change;
+  }
+  return plan;
 }
 
 }  // namespace biotomy::acquisition

@@ -1,20 +1,35 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "acquisition/focus/autofocus.hpp"
+#include "acquisition/focus/focus_settings.hpp"
+#include "acquisition/quality/frame_measures.hpp"
 #include "firmware_bridge/micrometres.hpp"
 
 namespace biotomy::acquisition {
 
+/// What is remembered of a layer that was focused by a search.
+struct FocusedLayer {
+  std::int64_t layer = 0;
+  bridge::Micrometres position{};
+  double sharpness = 0.0;  ///< see sharpness()
+  /// Of the frame at the found position; null after a restart.
+  std::shared_ptr<const FrameMeasures> measures;
+  /// Of the bracket that suits its curve; zero after a restart.
+  bridge::Micrometres step{};
+};
+
 /// What was learnt of the focus, carried from layer to layer. The face moves away by the layer's
-/// thickness with each layer, and the column follows by as much.
+/// thickness with each layer, and the focus follows by as much, and by what the searches found it
+/// to drift beside.
 class FocusMemory {
  public:
   FocusMemory(const FocusSettings& settings, bridge::Micrometres layer_thickness);
 
-  void remember(std::int64_t layer, Autofocus::Point best);
+  void remember(const FocusedLayer& focused);
 
   /// The sharpness of an accepted frame, as a part of the peak's: when it fell, the next layer
   /// searches.
@@ -23,18 +38,26 @@ class FocusMemory {
   /// Why `layer` needs a search, in words; null when following is enough.
   const char* why_search(std::int64_t layer) const;
 
-  /// Where the column should be for `layer`.
+  /// Where the focus should be for `layer`.
   bridge::Micrometres predicted(std::int64_t layer) const;
 
+  /// How a search for `layer` begins. `anywhere`: what was remembered is in doubt.
+  SearchPlan plan(std::int64_t layer, bool anywhere) const;
+
   /// The sharpness at the last peak; 0 when there was no search yet.
-  double peak_sharpness() const { return best_ ? best_->sharpness : 0.0; }
-  bool knows_focus() const { return best_.has_value(); }
+  double peak_sharpness() const { return last_ ? last_->sharpness : 0.0; }
+  /// The last frame at a peak, with its layer; null when there was none in this run.
+  std::shared_ptr<const FrameMeasures> peak_measures() const {
+    return last_ ? last_->measures : nullptr;
+  }
+  std::int64_t peak_layer() const { return last_ ? last_->layer : 0; }
+  bool knows_focus() const { return last_.has_value(); }
 
  private:
   FocusSettings settings_;
   bridge::Micrometres layer_thickness_;
-  std::int64_t layer_ = 0;
-  std::optional<Autofocus::Point> best_;
+  std::optional<FocusedLayer> last_;
+  bridge::Micrometres drift_{};  ///< a layer
   bool fell_ = false;
 };
 

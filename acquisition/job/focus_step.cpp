@@ -1,74 +1,93 @@
 #include "acquisition/job/focus_step.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
 
 #include "acquisition/job/capture.hpp"
-#include "acquisition/job/parking.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/quality/sharpness.hpp"
 
 namespace biotomy::acquisition {
+namespace {
 
-FocusStep::FocusStep(const JobSettings& settings, bridge::AxisLimits column, FocusMemory& memory,
-                     StageCommands& commands, bridge::Camera& camera, Worker& worker,
+constexpr const char* kComponent = "focus";
+
+void warn_of_lean(const FaceLean& lean, bridge::Micrometres tilt,
+                  bridge::Micrometres depth_of_field) {
+  std::array<char, 300> text{};
+  std::snprintf(text.data(), text.size(),
+                "the face leans by %.2f°, %.0f µm across the frame and %.0f µm down it: more than "
+                "the depth of field of %.0f µm, so that its corners are not sharp; level the block "
+                "or the camera",
+                lean.angle_degrees, lean.across.value, lean.down.value, depth_of_field.value);
+  if (tilt > depth_of_field) log_warning(kComponent, text.data());
+}
+
+}  // namespace
+
+FocusStep::FocusStep(const JobSettings& settings, std::unique_ptr<FocusActuator> actuator,
+                     FocusMemory& memory, bridge::Camera& camera, Worker& worker,
                      RecordKeeper& keeper)
     : settings_(settings),
-      column_(column),
+      actuator_(std::move(actuator)),
       memory_(memory),
-      commands_(commands),
       camera_(camera),
       worker_(worker),
       keeper_(keeper) {}
 
-void FocusStep::begin(std::int64_t layer, const char* why_search, TimePoint now) {
+void FocusStep::begin(std::int64_t layer, SearchReason reason, TimePoint now) {
   layer_ = layer;
-  focus_ = std::clamp(memory_.predicted(layer), column_.minimum, column_.maximum);
   search_.reset();
-  if (why_search == nullptr) {
-    phase_ = Phase::move_to_focus;
-    move_to(focus_, now);
+  const bridge::AxisLimits limits = actuator_->limits();
+  if (reason.words == nullptr) {
+    approach(std::clamp(memory_.predicted(layer), limits.minimum, limits.maximum), now);
     return;
   }
-  why_ = why_search;
-  search_.emplace(settings_.focus, focus_, column_);
+  SearchPlan plan = memory_.plan(layer, reason.anywhere);
+  plan.predicted = std::clamp(plan.predicted, limits.minimum, limits.maximum);
+  focus_ = plan.predicted;
+  row_ = {.layer = layer, .why = reason.words, .column = {}, .points = {}, .lean = {}};
+  search_.emplace(settings_.focus, plan, limits);
   ask_next(now);
 }
 
-void FocusStep::move_to(bridge::Micrometres column, TimePoint now) {
-  target_ = column;
-  commands_.begin({.action = bridge::StageAction::move_column,
-                   .position = column,
-                   .duration = {},
-                   .spindle_rpm = 0.0},
-                  now);
+void FocusStep::move_to(bridge::Micrometres target, TimePoint now) {
+  stands_at_ = target;
+  actuator_->move_to(target, now);
+}
+
+/// From below, as a search does.
+void FocusStep::approach(bridge::Micrometres target, TimePoint now) {
+  focus_ = target;
+  const bool from_below = stands_at_ && *stands_at_ <= target;
+  phase_ = from_below ? Phase::move_to_focus : Phase::take_up_backlash;
+  move_to(from_below ? target
+                     : std::max(target - settings_.focus.backlash, actuator_->limits().minimum),
+          now);
 }
 
 void FocusStep::ask_next(TimePoint now) {
   if (const std::optional<Autofocus::Request> request = search_->next()) {
     phase_ = Phase::move_in_search;
-    move_to(request->column, now);
+    move_to(request->position, now);
   } else {
     end_search(now);
   }
 }
 
 bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
+  if (phase_ == Phase::in_focus) return true;
   if (phase_ == Phase::measure) {
-    if (!is_ready(sharpness_)) return false;
-    search_->measured(sharpness_.get());
-    ask_next(now);
-    return false;
+    if (is_ready(measured_)) take_measures(now);
+    return phase_ == Phase::in_focus;
   }
-  if (!commands_.poll_done(status, now)) return false;
-  check_position("column", status.column, target_, settings_.limits);
+  if (!actuator_->settled(status, now)) return false;
   switch (phase_) {
     case Phase::move_in_search:
       if (search_->next()->measure) {
-        phase_ = Phase::measure;
-        sharpness_ =
-            run_on(worker_, [this_camera = &camera_, time_out = settings_.camera.capture_time_out] {
-              return sharpness(capture(*this_camera, time_out).image);
-            });
+        take_frame();
       } else {
         search_->arrived();
         ask_next(now);
@@ -78,42 +97,75 @@ bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
       phase_ = Phase::move_to_focus;
       move_to(focus_, now);
       return false;
-    case Phase::move_to_focus:
-    case Phase::measure:
+    default:
       return true;
   }
-  return false;
+}
+
+void FocusStep::take_frame() {
+  phase_ = Phase::measure;
+  measured_ = run_on(worker_, [this_camera = &camera_,
+                               time_out = settings_.camera.capture_time_out] {
+    const cv::Mat image = capture(*this_camera, time_out).image;
+    return Measured{std::make_shared<const FrameMeasures>(measure_frame(image)), sharpness(image)};
+  });
+}
+
+void FocusStep::take_measures(TimePoint now) {
+  Measured measured = measured_.get();
+  row_.points.push_back({search_->next()->position, measured.sharpness});
+  search_->measured(std::move(measured.measures));
+  ask_next(now);
 }
 
 void FocusStep::end_search(TimePoint now) {
-  const std::optional<Autofocus::Point> best = search_->best();
-  FocusRow row{.layer = layer_,
-               .why = why_,
-               .column = best ? best->column : focus_,
-               .sharpness = best ? best->sharpness : 0.0,
-               .found = best.has_value(),
-               .points = {}};
-  for (const Autofocus::Point& point : search_->points()) {
-    row.points.push_back({point.column, point.sharpness});
+  const std::optional<Autofocus::Found>& found = search_->found();
+  report(found);
+  if (found) {
+    // The frame that confirmed it was taken there.
+    memory_.remember({.layer = layer_,
+                      .position = found->position,
+                      .sharpness = row_.sharpness,
+                      .measures = found->measures,
+                      .step = found->step});
+    phase_ = Phase::in_focus;
+    return;
   }
-  keeper_.post([row](SampleRecords& records) { records.record_focus(row); });
+  if (!memory_.knows_focus()) {
+    throw StepFailure("no focus was found around " + actuator_->describe(focus_) + " of the " +
+                      actuator_->name() + ": " + search_->why_not() +
+                      ": check focus.start_um, the lamp and the camera");
+  }
+  log_warning(kComponent, search_->why_not() + "; the " + actuator_->name() + " follows the face");
+  approach(focus_, now);
+}
 
-  if (best) {
-    memory_.remember(layer_, *best);
-    focus_ = best->column;
-  } else if (!memory_.knows_focus()) {
-    throw StepFailure("no focus was found around " + std::to_string(focus_.value) +
-                      " µm of the column: check focus.start_um, the lamp and the camera");
-  } else {
-    log_warning("focus", "no peak was found; the column follows the face");
+void FocusStep::report(const std::optional<Autofocus::Found>& found) {
+  row_.found = found.has_value();
+  row_.column = found ? found->position : focus_;
+  row_.sharpness = found ? row_.points.back().sharpness : 0.0;
+  if (found && found->map) {
+    const cv::Size frame = found->measures->grid.frame;
+    row_.lean = lean_of(*found->map, static_cast<double>(frame.width) * settings_.plan.pixel_x,
+                        static_cast<double>(frame.height) * settings_.plan.pixel_y);
+    warn_of_lean(*row_.lean, found->map->tilt(), settings_.focus.depth_of_field);
   }
-  phase_ = Phase::take_up_backlash;
-  move_to(std::max(focus_ - settings_.focus.backlash, column_.minimum), now);
+  last_search_ = FocusReport{.layer = layer_,
+                             .why = row_.why,
+                             .found = row_.found,
+                             .why_not = search_->why_not(),
+                             .actuator = actuator_->name(),
+                             .position = actuator_->describe(row_.column),
+                             .plane = row_.column,
+                             .frames = static_cast<int>(row_.points.size()),
+                             .lean = row_.lean};
+  keeper_.post([row = row_](SampleRecords& records) { records.record_focus(row); });
 }
 
 std::string FocusStep::waiting_for() const {
   if (phase_ == Phase::measure) return "waits for a frame of the focus search";
-  return search_ ? "waits for the column, searching the focus" : "waits for the column";
+  const std::string moves = std::string("waits for the ") + actuator_->name();
+  return search_ ? moves + ", searching the focus" : moves;
 }
 
 }  // namespace biotomy::acquisition

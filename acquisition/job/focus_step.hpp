@@ -2,57 +2,77 @@
 
 #include <cstdint>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "acquisition/focus/autofocus.hpp"
+#include "acquisition/focus/focus_actuator.hpp"
 #include "acquisition/focus/focus_memory.hpp"
+#include "acquisition/job/focus_report.hpp"
 #include "acquisition/job/job_settings.hpp"
-#include "acquisition/job/stage_commands.hpp"
+#include "acquisition/job/step_failure.hpp"
 #include "acquisition/job/worker.hpp"
 #include "acquisition/records/record_keeper.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 
 namespace biotomy::acquisition {
 
-/// Brings the column to where the face is sharp: by following the face, or by a search. A search
-/// without a peak is fatal only when nothing is known of the focus; otherwise the column follows
-/// and the assessment judges.
+/// Why a layer's focus is searched.
+struct SearchReason {
+  const char* words = nullptr;  ///< null: it is only followed
+  bool anywhere = false;        ///< what was remembered is in doubt
+};
+
+/// Brings the face into focus: by following it, or by a search. A search without a peak is fatal
+/// only when nothing is known of the focus; otherwise the actuator follows and the assessment
+/// judges.
 class FocusStep {
  public:
-  FocusStep(const JobSettings& settings, bridge::AxisLimits column, FocusMemory& memory,
-            StageCommands& commands, bridge::Camera& camera, Worker& worker, RecordKeeper& keeper);
+  FocusStep(const JobSettings& settings, std::unique_ptr<FocusActuator> actuator,
+            FocusMemory& memory, bridge::Camera& camera, Worker& worker, RecordKeeper& keeper);
 
-  /// `why_search` null: only follow.
-  void begin(std::int64_t layer, const char* why_search, TimePoint now);
+  void begin(std::int64_t layer, SearchReason reason, TimePoint now);
 
-  /// True when the column is at the focus. Throws StepFailure, and what the camera throws.
+  /// True when the face is in focus. Throws StepFailure, and what the devices throw.
   bool poll(const bridge::StageStatus& status, TimePoint now);
 
   std::string waiting_for() const;
 
- private:
-  void move_to(bridge::Micrometres column, TimePoint now);
-  void ask_next(TimePoint now);
-  void end_search(TimePoint now);
+  const std::optional<FocusReport>& last_search() const { return last_search_; }
 
-  enum class Phase { move_in_search, measure, take_up_backlash, move_to_focus };
+ private:
+  /// What the worker makes of a frame.
+  struct Measured {
+    std::shared_ptr<const FrameMeasures> measures;
+    double sharpness = 0.0;
+  };
+
+  void move_to(bridge::Micrometres target, TimePoint now);
+  void approach(bridge::Micrometres target, TimePoint now);
+  void ask_next(TimePoint now);
+  void take_frame();
+  void take_measures(TimePoint now);
+  void end_search(TimePoint now);
+  void report(const std::optional<Autofocus::Found>& found);
+
+  enum class Phase { move_in_search, measure, take_up_backlash, move_to_focus, in_focus };
 
   const JobSettings& settings_;
-  bridge::AxisLimits column_;
+  std::unique_ptr<FocusActuator> actuator_;
   FocusMemory& memory_;
-  StageCommands& commands_;
   bridge::Camera& camera_;
   Worker& worker_;
   RecordKeeper& keeper_;
 
   std::int64_t layer_ = 0;
-  std::string why_;
   std::optional<Autofocus> search_;
+  FocusRow row_;  ///< of the search
   Phase phase_ = Phase::move_to_focus;
-  bridge::Micrometres target_{};
   bridge::Micrometres focus_{};
-  std::future<double> sharpness_;
+  std::optional<bridge::Micrometres> stands_at_;
+  std::future<Measured> measured_;
+  std::optional<FocusReport> last_search_;
 };
 
 }  // namespace biotomy::acquisition

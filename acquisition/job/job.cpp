@@ -460,6 +460,7 @@ void Job::publish() {
     status.attempt = cycle_->attempt();
     status.last_attempt = cycle_->last_judged();
     status.last_layer = cycle_->last_committed();
+    status.focus = cycle_->last_focus();
     status.disk_left_layers = cycle_->disk_left_layers();
   }
   if (feed_) status.volume = feed_->progress();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "acquisition/focus/autofocus.hpp"
+#include "acquisition/focus/focus_settings.hpp"
 #include "acquisition/job/job_plan.hpp"
 #include "acquisition/job/quality_ladder.hpp"
 #include "acquisition/job/safety_limits.hpp"

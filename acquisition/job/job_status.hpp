@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "acquisition/job/focus_report.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/judged_attempt.hpp"
 #include "acquisition/job/layer_cycle.hpp"
@@ -39,6 +40,7 @@ struct JobStatus {
   bridge::SafetyInputs lines;
   std::optional<JudgedAttempt> last_attempt;
   std::optional<CommittedLayer> last_layer;
+  std::optional<FocusReport> focus;  ///< the last search of this run
   std::optional<std::int64_t> disk_left_layers;
   std::optional<Alarm> alarm;
   VolumeFeed::Progress volume;

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "acquisition/job/capture.hpp"
+#include "acquisition/job/column_actuator.hpp"
+#include "acquisition/job/lens_actuator.hpp"
 #include "acquisition/job/parking.hpp"
 #include "acquisition/log.hpp"
 
@@ -11,14 +13,28 @@ namespace biotomy::acquisition {
 
 using bridge::StageAction;
 
+namespace {
+
+std::unique_ptr<FocusActuator> actuator_of(const JobSettings& settings, const CycleParts& parts,
+                                           const CycleStart& start) {
+  if (settings.focus.actuator == FocusSettings::Actuator::column) {
+    return std::make_unique<ColumnActuator>(parts.commands, settings.limits, start.column);
+  }
+  if (!start.camera.lens) throw StepFailure("the camera has no lens to focus with");
+  return std::make_unique<LensActuator>(parts.camera, settings.camera.settings, *start.camera.lens,
+                                        parts.worker);
+}
+
+}  // namespace
+
 LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
                        const CycleStart& start)
     : settings_(settings),
       parts_(parts),
       focus_memory_(settings.focus, settings.plan.layer_thickness),
       grind_(settings, parts.commands, parts.keeper),
-      focus_(settings, start.column, focus_memory_, parts.commands, parts.camera, parts.worker,
-             parts.keeper),
+      focus_(settings, actuator_of(settings, parts, start), focus_memory_, parts.camera,
+             parts.worker, parts.keeper),
       layer_(start.journal.last_committed + 1),
       attempt_(start.journal.last_attempt),
       disk_left_layers_(start.disk_left_layers) {
@@ -29,7 +45,11 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
   expectation_.sharpness = start.recalled.sharpness;
   expectation_.surfaces = start.recalled.surfaces;
   if (const auto& focus = start.journal.last_focus) {
-    focus_memory_.remember(focus->layer, {focus->column, focus->sharpness});
+    focus_memory_.remember({.layer = focus->layer,
+                            .position = focus->column,
+                            .sharpness = focus->sharpness,
+                            .measures = nullptr,
+                            .step = {}});
   }
 }
 
@@ -54,8 +74,9 @@ void LayerCycle::begin(JobState step, const bridge::StageStatus& status, TimePoi
       break;
     case JobState::focusing:
       focus_.begin(layer_,
-                   std::exchange(focus_again_, false) ? "the quality ladder asked for it"
-                                                      : focus_memory_.why_search(layer_),
+                   std::exchange(focus_again_, false)
+                       ? SearchReason{"the quality ladder asked for it", true}
+                       : SearchReason{focus_memory_.why_search(layer_), false},
                    now);
       break;
     case JobState::capturing:

@@ -72,6 +72,7 @@ class LayerCycle {
   std::int64_t disk_left_layers() const { return disk_left_layers_; }
   const std::optional<CommittedLayer>& last_committed() const { return last_committed_; }
   const std::optional<JudgedAttempt>& last_judged() const { return last_judged_; }
+  const std::optional<FocusReport>& last_focus() const { return focus_.last_search(); }
 
  private:
   struct Stored {

@@ -4,6 +4,7 @@
 
 #include "acquisition/job/capture.hpp"
 #include "acquisition/job/job_states.hpp"
+#include "acquisition/job/lens_actuator.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/records/utc_time.hpp"
@@ -25,6 +26,32 @@ std::string outside_text(const char* what, bridge::Micrometres position, const c
        << ", outside its limits " << limits.minimum.value << " to " << limits.maximum.value
        << " µm: mend the configuration";
   return text.str();
+}
+
+/// The focus follows the face: where it begins and where it will have got to.
+std::optional<std::string> focus_complaint(const JobSettings& settings, const char* actuator,
+                                           const bridge::AxisLimits& limits) {
+  const bridge::Micrometres way =
+      settings.plan.face_of(settings.plan.layers) - settings.plan.face_of(1);
+  if (!inside(settings.focus.start, limits)) {
+    return outside_text("focus.start_um", settings.focus.start, actuator, limits);
+  }
+  if (!inside(settings.focus.start + way, limits)) {
+    return outside_text("the focus of the last layer", settings.focus.start + way, actuator,
+                        limits);
+  }
+  return std::nullopt;
+}
+
+void check_lens(const JobSettings& settings, const bridge::CameraDescription& camera) {
+  if (settings.focus.actuator != FocusSettings::Actuator::lens) return;
+  if (!camera.lens) {
+    throw StepFailure("focus.actuator is \"lens\" and the camera \"" + camera.model +
+                      "\" has none that can be driven: set it to \"column\"");
+  }
+  if (const auto complaint = focus_complaint(settings, "lens", lens_limits(*camera.lens))) {
+    throw StepFailure(*complaint);
+  }
 }
 
 /// A trial frame, whatever it shows: better now than with a block that is ground.
@@ -78,23 +105,15 @@ std::optional<std::string> stage_complaint(const JobSettings& settings,
   if (!inside({0.0}, stage.traverse)) {
     return outside_text("the parked block", {0.0}, "traverse", stage.traverse);
   }
-  // The column follows the face: where the focus begins and where it will have got to.
-  const bridge::Micrometres way =
-      settings.plan.face_of(settings.plan.layers) - settings.plan.face_of(1);
-  if (!inside(settings.focus.start, stage.column)) {
-    return outside_text("focus.start_um", settings.focus.start, "column", stage.column);
-  }
-  if (!inside(settings.focus.start + way, stage.column)) {
-    return outside_text("the focus of the last layer", settings.focus.start + way, "column",
-                        stage.column);
-  }
-  return std::nullopt;
+  if (settings.focus.actuator != FocusSettings::Actuator::column) return std::nullopt;
+  return focus_complaint(settings, "column", stage.column);
 }
 
 PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
                           const Surroundings& surroundings) {
   PreflightFindings findings;
   findings.camera = camera.describe();
+  check_lens(settings, findings.camera);
   camera.apply(settings.camera.settings);
   check_clock(surroundings.wall_clock());
   findings.records =

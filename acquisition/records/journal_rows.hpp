@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/focus/face_lean.hpp"
 #include "acquisition/quality/assessment.hpp"
 #include "firmware_bridge/micrometres.hpp"
 #include "firmware_bridge/stage/stage.hpp"
@@ -40,14 +41,15 @@ struct AttemptRow {
 struct FocusRow {
   std::int64_t layer = 0;
   std::string why;
-  bridge::Micrometres column{};  ///< the best position
+  bridge::Micrometres column{};  ///< the plane in focus, or where it was expected
   double sharpness = 0.0;        ///< there
   bool found = false;
   struct Point {
     bridge::Micrometres column{};
     double sharpness = 0.0;
   };
-  std::vector<Point> points;
+  std::vector<Point> points;       ///< every frame that was taken, the confirming one last
+  std::optional<FaceLean> lean{};  ///< where enough of the face shows detail
 };
 
 /// Something that happened in a job.

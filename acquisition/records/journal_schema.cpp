@@ -78,6 +78,10 @@ CREATE TABLE events (
   text   TEXT    NOT NULL
 );
 )sql",
+    R"sql(
+-- JSON: {across_um, down_um, angle_degrees, tiles}: how the face leans; NULL where it did not tell.
+ALTER TABLE focus_sweeps ADD COLUMN lean TEXT;
+)sql",
 };
 
 int version_of(SQLite::Database& database) {

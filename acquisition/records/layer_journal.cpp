@@ -50,6 +50,14 @@ std::string points_json(const std::vector<FocusRow::Point>& points) {
   return list.dump();
 }
 
+std::string lean_json(const FaceLean& lean) {
+  return json{{"across_um", lean.across.value},
+              {"down_um", lean.down.value},
+              {"angle_degrees", lean.angle_degrees},
+              {"tiles", lean.tiles}}
+      .dump();
+}
+
 /// Runs a piece of work on the database and names the journal in what goes wrong.
 template <typename Work>
 auto with_journal(const std::filesystem::path& path, Work work) {
@@ -183,7 +191,7 @@ void LayerJournal::record_focus(const FocusRow& focus, const std::string& at) {
   with_journal(state_->path, [&] {
     SQLite::Statement insert(state_->database,
                              "INSERT INTO focus_sweeps (at, layer, why, found, column_um, "
-                             "sharpness, points) VALUES (?, ?, ?, ?, ?, ?, ?)");
+                             "sharpness, points, lean) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
     insert.bind(1, at);
     insert.bind(2, focus.layer);
     insert.bind(3, focus.why);
@@ -191,6 +199,7 @@ void LayerJournal::record_focus(const FocusRow& focus, const std::string& at) {
     insert.bind(5, focus.column.value);
     insert.bind(6, focus.sharpness);
     insert.bind(7, points_json(focus.points));
+    if (focus.lean) insert.bind(8, lean_json(*focus.lean));
     insert.exec();
   });
 }
@@ -279,7 +288,8 @@ JournalSummary LayerJournal::summary() const {
                                     .column = {focus.getColumn(2).getDouble()},
                                     .sharpness = focus.getColumn(3).getDouble(),
                                     .found = true,
-                                    .points = {}};
+                                    .points = {},
+                                    .lean = {}};
     }
     return summary;
   });

@@ -1,6 +1,9 @@
 #include "acquisition/service/configuration.hpp"
 
+#include <algorithm>
+
 #include "acquisition/service/configuration_keys.hpp"
+#include "acquisition/service/focus_section.hpp"
 #include "acquisition/service/safety_section.hpp"
 #include "acquisition/service/store_section.hpp"
 #include "firmware_bridge/wire/checked_table.hpp"
@@ -209,26 +212,6 @@ JobPlan read_job(const CheckedTable& table) {
   return job;
 }
 
-FocusSettings read_focus(const CheckedTable& table) {
-  FocusSettings focus;
-  focus.start = position(table, "start_um", std::nullopt,
-                         "column position around which the first search begins");
-  focus.points = count(table, "points", focus.points, 3, 1000, "of a sweep");
-  focus.step = length(table, "step_um", focus.step, "between the points of a sweep");
-  focus.shifts = count(table, "shifts", focus.shifts, 0, 1000,
-                       "how often a sweep with its peak at the rim is repeated around that rim");
-  focus.backlash = length(table, "backlash_um", focus.backlash,
-                          "positions of a search are approached from below by so much", 0.0);
-  focus.every_layers = count(table, "every_layers", focus.every_layers, 1, 1000000,
-                             "a search at the latest after so many layers; between, the column "
-                             "follows the face");
-  focus.search_below_ratio =
-      number(table, "search_below_ratio", focus.search_below_ratio, "", 0.0, 10.0,
-             "a search also when an accepted frame's sharpness fell below this part of the last "
-             "search's peak");
-  return focus;
-}
-
 void read_light_and_surface(const CheckedTable& table, QualityThresholds& thresholds) {
   thresholds.maximum_brightness_change =
       number(table, "maximum_brightness_change", thresholds.maximum_brightness_change, "", 0.0,
@@ -318,7 +301,9 @@ Configuration read(const CheckedTable& document) {
   configuration.stage = read_stage(document.table("stage"));
   configuration.lines = read_lines(document.table("lines"));
   configuration.camera = read_camera(document.table("camera"), configuration.job.camera);
-  configuration.job.focus = read_focus(document.table("focus"));
+  configuration.job.focus =
+      read_focus(document.table("focus"),
+                 std::max(configuration.job.plan.pixel_x, configuration.job.plan.pixel_y));
   read_quality(document.table("quality"), configuration.job.thresholds, configuration.job.ladder);
   configuration.job.store = read_store(document.table("store"));
   configuration.job.limits = read_safety(document.table("safety"));

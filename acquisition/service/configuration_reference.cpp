@@ -19,7 +19,7 @@ const char* about(const std::string& table) {
       {"lines.trigger", "Of the gpiod backend; may be left out."},
       {"lines.tower_light", "Of the gpiod backend; may be left out. Lit while an alarm waits."},
       {"camera", "The camera and how it takes a frame."},
-      {"focus", "How the camera column follows the face and searches the focus."},
+      {"focus", "How the focus follows the face and is searched."},
       {"quality", "When a frame is good enough, and what is done when it is not."},
       {"store", "How images and volume are kept."},
       {"safety", "Beyond these limits the wheel stops and a person is called."},

@@ -58,6 +58,26 @@ json last_layer_json(const std::optional<CommittedLayer>& layer) {
           {"metrics", metrics_json(layer->assessment.metrics)}};
 }
 
+json focus_json(const std::optional<FocusReport>& focus) {
+  if (!focus) return nullptr;
+  json lean = nullptr;
+  if (focus->lean) {
+    lean = {{"across_um", focus->lean->across.value},
+            {"down_um", focus->lean->down.value},
+            {"angle_degrees", focus->lean->angle_degrees},
+            {"tiles", focus->lean->tiles}};
+  }
+  return {{"layer", focus->layer},
+          {"why", focus->why},
+          {"found", focus->found},
+          {"why_not", focus->why_not},
+          {"actuator", focus->actuator},
+          {"position", focus->position},
+          {"plane_um", focus->plane.value},
+          {"frames", focus->frames},
+          {"lean", lean}};
+}
+
 template <typename Value>
 json or_null(const std::optional<Value>& value) {
   return value ? json(*value) : json(nullptr);
@@ -92,6 +112,7 @@ std::string status_json(const JobStatus& status) {
                  {"stage", stage_json(status)},
                  {"interlocks", interlocks_json(status)},
                  {"last_layer", last_layer_json(status.last_layer)},
+                 {"focus", focus_json(status.focus)},
                  {"disk_left_layers", or_null(status.disk_left_layers)},
                  {"alarm", alarm},
                  {"volume",

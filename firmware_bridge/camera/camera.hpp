@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "firmware_bridge/camera/frame.hpp"
@@ -12,12 +13,22 @@ struct CameraSettings {
   double gain = 1.0;
   double red_gain = 1.0;  ///< white balance; green is 1
   double blue_gain = 1.0;
+  /// Where the lens focuses, in dioptres: the reciprocal of the distance in metres. Not set: the
+  /// lens is left alone.
+  std::optional<double> lens_position;
+};
+
+/// How far a lens can be driven, in dioptres.
+struct LensRange {
+  double farthest = 0.0;  ///< 0 is infinity
+  double nearest = 0.0;
 };
 
 struct CameraDescription {
   std::string model;
   int width = 0;
   int height = 0;
+  std::optional<LensRange> lens{};  ///< of a camera that can drive its lens
 };
 
 /// A camera that takes one still at a time. One thread owns it. Every call throws DeviceError.
@@ -25,6 +36,8 @@ class Camera {
  public:
   virtual ~Camera() = default;
   virtual CameraDescription describe() = 0;
+
+  /// Settings that it cannot follow are refused; a lens position by a camera without such a lens.
   virtual void apply(const CameraSettings& settings) = 0;
 
   /// A frame whose exposure began after the call: whatever was in flight before is dropped.

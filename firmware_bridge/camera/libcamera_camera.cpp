@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include <libcamera/camera_manager.h>
 #include <libcamera/control_ids.h>
@@ -29,6 +30,9 @@ using Clock = std::chrono::steady_clock;
 
 /// Sensors take a frame or two to obey new settings; these are dropped after each start.
 constexpr int kSettlingFrames = 2;
+
+/// And a lens on its way takes some more.
+constexpr int kLensFrames = 4;
 
 std::string model_of(const libcamera::Camera& camera) {
   return camera.properties().get(libcamera::properties::Model).value_or(camera.id());
@@ -114,6 +118,8 @@ class LibcameraCamera::Session {
   class Streaming;
 
   void write_controls(libcamera::ControlList& controls) const;
+  std::optional<LensRange> lens_range() const;
+  void check_lens(double dioptres) const;
   bool has_control(unsigned int id) const { return camera_->controls().count(id) > 0; }
   [[noreturn]] void fail(Kind kind, const std::string& what) const;
   void check(int result, const char* what) const;
@@ -126,6 +132,7 @@ class LibcameraCamera::Session {
   std::unique_ptr<LibcameraBuffers> buffers_;
   std::vector<std::unique_ptr<libcamera::Request>> requests_;
   std::optional<CameraSettings> settings_;
+  std::optional<double> lens_at_;  ///< where it was driven for the last capture
   CompletedRequests completed_;
 };
 
@@ -204,7 +211,25 @@ CameraDescription LibcameraCamera::Session::describe() const {
   const libcamera::Size size = configuration_->at(0).size;
   return {.model = model_of(*camera_),
           .width = static_cast<int>(size.width),
-          .height = static_cast<int>(size.height)};
+          .height = static_cast<int>(size.height),
+          .lens = lens_range()};
+}
+
+std::optional<LensRange> LibcameraCamera::Session::lens_range() const {
+  const auto lens = camera_->controls().find(libcamera::controls::LENS_POSITION);
+  if (lens == camera_->controls().end()) return std::nullopt;
+  return LensRange{.farthest = static_cast<double>(lens->second.min().get<float>()),
+                   .nearest = static_cast<double>(lens->second.max().get<float>())};
+}
+
+void LibcameraCamera::Session::check_lens(double dioptres) const {
+  const std::optional<LensRange> lens = lens_range();
+  if (!lens) fail(Kind::refused, "it has no lens that can be driven");
+  if (dioptres < lens->farthest || dioptres > lens->nearest) {
+    fail(Kind::refused, "a lens position of " + std::to_string(dioptres) + " dioptres; it can do " +
+                            std::to_string(lens->farthest) + " to " +
+                            std::to_string(lens->nearest));
+  }
 }
 
 void LibcameraCamera::Session::apply(const CameraSettings& settings) {
@@ -218,6 +243,7 @@ void LibcameraCamera::Session::apply(const CameraSettings& settings) {
                               std::to_string(most));
     }
   }
+  if (settings.lens_position) check_lens(*settings.lens_position);
   settings_ = settings;
 }
 
@@ -237,6 +263,10 @@ void LibcameraCamera::Session::write_controls(libcamera::ControlList& controls) 
                            static_cast<float>(settings_->blue_gain)};
     controls.set(id::ColourGains, libcamera::Span<const float, 2>(gains));
   }
+  if (settings_->lens_position) {
+    if (has_control(id::AF_MODE)) controls.set(id::AfMode, id::AfModeManual);
+    controls.set(id::LensPosition, static_cast<float>(*settings_->lens_position));
+  }
 }
 
 void LibcameraCamera::Session::queue(libcamera::Request& request) {
@@ -251,6 +281,8 @@ Frame LibcameraCamera::Session::capture(std::chrono::milliseconds time_out) {
   const Streaming streaming(*this);
 
   int to_drop = kSettlingFrames;
+  const std::optional<double> lens = settings_ ? settings_->lens_position : std::nullopt;
+  if (std::exchange(lens_at_, lens) != lens) to_drop += kLensFrames;
   while (libcamera::Request* request = completed_.pop(deadline)) {
     const bool is_complete = request->status() == libcamera::Request::RequestComplete;
     const libcamera::FrameBuffer& buffer = *request->buffers().begin()->second;

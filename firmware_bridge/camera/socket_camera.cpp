@@ -59,6 +59,10 @@ CameraDescription SocketCamera::describe() {
 }
 
 void SocketCamera::apply(const CameraSettings& settings) {
+  if (settings.lens_position) {
+    throw DeviceError(Kind::refused, "camera at unix://" + client_.path().string() +
+                                         ": it has no lens that can be driven");
+  }
   settings_ = settings;
   send_settings(time_out_);
 }

@@ -69,7 +69,8 @@ TEST_F(LayerJournalTest, RemembersAcrossARestart) {
                           .column = {612.5},
                           .sharpness = 0.4,
                           .found = true,
-                          .points = {{{600.0}, 0.3}}},
+                          .points = {{{600.0}, 0.3}},
+                          .lean = FaceLean{{12.5}, {-3.0}, 0.1, 80}},
                          kAt);
     journal.record_attempt(attempt(1, 1, Verdict::rejected));
     journal.commit_layer(attempt(1, 2, Verdict::accepted), 1234, kAt);
@@ -85,6 +86,21 @@ TEST_F(LayerJournalTest, RemembersAcrossARestart) {
   EXPECT_EQ(summary.last_grind->count_before, 3);
   ASSERT_TRUE(summary.last_focus);
   EXPECT_EQ(summary.last_focus->column.value, 612.5);
+}
+
+TEST_F(LayerJournalTest, WritesDownHowTheFaceLeans) {
+  LayerJournal journal(path);
+  journal.record_focus(
+      {.layer = 1, .why = "first", .points = {}, .lean = FaceLean{{12.5}, {-3.0}, 0.1, 80}}, kAt);
+  journal.record_focus({.layer = 2, .why = "first", .points = {}}, kAt);
+  SQLite::Database database(path.string());
+  const auto count = [&](const std::string& where) {
+    return database.execAndGet("SELECT count(*) FROM focus_sweeps WHERE " + where).getInt();
+  };
+  EXPECT_EQ(count("layer = 1 AND json_extract(lean, '$.across_um') = 12.5 AND "
+                  "json_extract(lean, '$.tiles') = 80"),
+            1);
+  EXPECT_EQ(count("layer = 2 AND lean IS NULL"), 1);
 }
 
 TEST_F(LayerJournalTest, IsReadWhileItIsWritten) {
