@@ -1,0 +1,79 @@
+#include "acquisition/quality/sweep_mask.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr double kOverexposed = 0.5;  ///< part of a frame's pixels
+constexpr double kLeastUsable = 0.05;
+constexpr int kWidestMargin = 100;  ///< this part of the width
+
+/// JPEG writes a little less than full scale where the picture was clipped.
+constexpr double kNearlyFull = 0.98;
+
+template <typename Sample>
+std::int64_t mark_clipped(const Sample* pixels, int width, int level, std::uint8_t* marks) {
+  std::int64_t clipped = 0;
+  for (int x = 0; x < width; ++x, pixels += 3) {
+    if (std::max({pixels[0], pixels[1], pixels[2]}) < level) continue;
+    marks[x / 2] = 1;
+    ++clipped;
+  }
+  return clipped;
+}
+
+}  // namespace
+
+int clipping_level(const cv::Mat& image) {
+  if (image.depth() == CV_8U) {
+    return static_cast<int>(kNearlyFull * std::numeric_limits<std::uint8_t>::max());
+  }
+  double largest = 0.0;
+  cv::minMaxLoc(image.reshape(1), nullptr, &largest);
+  for (const int bits : {10, 12, 14}) {
+    if (static_cast<int>(largest) == (1 << bits) - 1) return static_cast<int>(largest);
+  }
+  return static_cast<int>(kNearlyFull * std::numeric_limits<std::uint16_t>::max());
+}
+
+SweepMask::SweepMask(cv::Size frame)
+    : clipped_(cv::Mat::zeros((frame.height + 1) / 2, (frame.width + 1) / 2, CV_8UC1)) {}
+
+double SweepMask::add(const cv::Mat& image) {
+  const int level = clipping_level(image);
+  cv::Mat found = cv::Mat::zeros(clipped_.size(), CV_8UC1);
+  std::int64_t clipped = 0;
+  for (int y = 0; y < image.rows; ++y) {
+    auto* marks = found.ptr<std::uint8_t>(y / 2);
+    clipped += image.depth() == CV_16U
+                   ? mark_clipped(image.ptr<std::uint16_t>(y), image.cols, level, marks)
+                   : mark_clipped(image.ptr<std::uint8_t>(y), image.cols, level, marks);
+  }
+  const double part = static_cast<double>(clipped) / static_cast<double>(image.total());
+  if (part <= kOverexposed) clipped_ |= found;
+  return part;
+}
+
+cv::Mat SweepMask::usable() const {
+  const int widest = clipped_.cols / kWidestMargin;
+  for (int margin = widest;; margin /= 2) {
+    cv::Mat wide;
+    const cv::Size square(2 * margin + 1, 2 * margin + 1);
+    cv::dilate(clipped_, wide, cv::getStructuringElement(cv::MORPH_RECT, square));
+    cv::Mat usable = 1 - wide;
+    if (cv::countNonZero(usable) > kLeastUsable * static_cast<double>(usable.total())) {
+      return usable;
+    }
+    if (margin == 0) return {};
+  }
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace biotomy::acquisition {
+
+/// Where the frames of a focus sweep can be compared: pixels that are clipped in no frame.
+///
+/// A spot that is clipped has a steep rim, which grows as the spot gets blurred: its gradients rise
+/// where all others fall. What a spot covers in any frame, and a margin, is therefore left out of
+/// all of them. A frame that is clipped over more than half of its area would leave nothing: it has
+/// no say in what the others may show.
+class SweepMask {
+ public:
+  explicit SweepMask(cv::Size frame);
+
+  /// Takes in one frame, CV_8UC3 or CV_16UC3 of the size given, R G B. The part of its pixels in
+  /// which a colour is clipped: at full scale or, of 16 bits, at the full scale of a converter of
+  /// 10, 12 or 14 bits that the frame does not exceed.
+  double add(const cv::Mat& image);
+
+  /// After the last frame: where the frames can be compared, CV_8UC1 of 0 and 1 at half the
+  /// resolution. The margin is as wide as leaves at least a twentieth; empty when none does.
+  cv::Mat usable() const;
+
+ private:
+  cv::Mat clipped_;  ///< CV_8UC1 at half the resolution: clipped in some frame
+};
+
+/// The least value that counts as clipped in this image, of its samples' scale.
+int clipping_level(const cv::Mat& image);
+
+}  // namespace biotomy::acquisition
