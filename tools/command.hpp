@@ -15,5 +15,6 @@ void add_verify_command(CLI::App& app);
 void add_rebuild_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_rig_command(CLI::App& app);
+void add_qc_command(CLI::App& app);
 
 }  // namespace biotomy::tools

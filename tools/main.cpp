@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   biotomy::tools::add_verify_command(app);
   biotomy::tools::add_rebuild_command(app);
   biotomy::tools::add_export_command(app);
+  biotomy::tools::add_qc_command(app);
   biotomy::tools::add_rig_command(app);
   try {
     app.parse(argc, argv);

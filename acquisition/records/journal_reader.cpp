@@ -77,6 +77,26 @@ std::vector<LayerRow> JournalReader::committed_layers(std::int64_t from, std::in
   });
 }
 
+std::vector<AttemptNote> JournalReader::attempts(std::int64_t layer) const {
+  return with_journal(state_->path, [&] {
+    SQLite::Statement select(state_->database,
+                             "SELECT attempt, taken_at, verdict, reason, file, metrics "
+                             "FROM attempts WHERE layer = ? ORDER BY attempt");
+    select.bind(1, layer);
+    std::vector<AttemptNote> notes;
+    while (select.executeStep()) {
+      notes.push_back({.layer = layer,
+                       .attempt = select.getColumn(0).getInt(),
+                       .taken_at = select.getColumn(1).getString(),
+                       .verdict = select.getColumn(2).getString(),
+                       .reason = select.getColumn(3).getString(),
+                       .file = select.getColumn(4).getString(),
+                       .metrics = metrics_of(select.getColumn(5).getString())});
+    }
+    return notes;
+  });
+}
+
 std::int64_t JournalReader::committed_count() const {
   return with_journal(state_->path, [&] {
     return state_->database.execAndGet("SELECT count(*) FROM layers").getInt64();

@@ -21,6 +21,9 @@ class JournalReader {
   /// Committed layers in growing order, at most `limit`, the first not before `from`.
   std::vector<LayerRow> committed_layers(std::int64_t from, std::int64_t limit) const;
 
+  /// All attempts at a layer, in their order.
+  std::vector<AttemptNote> attempts(std::int64_t layer) const;
+
   std::int64_t committed_count() const;
 
   /// The highest number of a command in it; 0 if none.

@@ -37,6 +37,17 @@ struct AttemptRow {
   bridge::StageStatus telemetry;
 };
 
+/// What the journal says of an attempt, without the telemetry.
+struct AttemptNote {
+  std::int64_t layer = 0;
+  int attempt = 0;
+  std::string taken_at;
+  std::string verdict;  ///< as to_string(Verdict) names it
+  std::string reason;
+  std::string file;  ///< relative to the sample folder; empty if none was kept
+  std::vector<Metric> metrics;
+};
+
 /// One search for the focus.
 struct FocusRow {
   std::int64_t layer = 0;

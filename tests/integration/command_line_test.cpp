@@ -144,6 +144,19 @@ TEST_F(CommandLine, SaysThatNoDaemonAnswers) {
                   "127.0.0.1:9");
 }
 
+TEST_F(CommandLine, QcJudgesAFolderOfImages) {
+  const Outcome judged = biotomy({"qc", numbered_images(3)});
+  EXPECT_EQ(judged.exit_code, 0) << judged.errors;
+  EXPECT_NE(judged.output.find("3 frames: 0 accepted, 3 rejected"), std::string::npos)
+      << judged.output;
+  EXPECT_EQ(biotomy({"qc", folder_.path() / "images", "--strict"}).exit_code, kFailure);
+}
+
+TEST_F(CommandLine, QcAsksWhatToJudge) {
+  expect_one_line(biotomy({"qc"}), kUsage, "--sweep");
+  expect_one_line(biotomy({"qc", folder_.path() / "nowhere"}), kFailure, "nowhere");
+}
+
 TEST_F(CommandLine, AsksForACommand) {
   expect_one_line(biotomy({}), kUsage, "--help");
 }

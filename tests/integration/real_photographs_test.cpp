@@ -2,6 +2,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -61,6 +62,23 @@ INSTANTIATE_TEST_SUITE_P(, RealPhotographs,
                            }
                            return name;
                          });
+
+TEST(RealFocusSweep, IsSharpestWhereItsNotesSay) {
+  const fs::path images = fs::path(BIOTOMY_SHARED) / "data" / "focus-pcb-rgb";
+  if (!fs::is_directory(images)) {
+    GTEST_SKIP() << "there are no photographs in " << images
+                 << "; the test is for those who have them beside the checkout";
+  }
+  const TemporaryFolder folder;
+  const Outcome ranked = run({BIOTOMY_TOOL, "qc", "--sweep", images, "--json"}, folder.path());
+  ASSERT_EQ(ranked.exit_code, 0) << ranked.errors;
+  const auto document = nlohmann::json::parse(ranked.output);
+  EXPECT_EQ(document.at("sharpest"), "0004.png") << ranked.output;
+  EXPECT_TRUE(document.at("certain").get<bool>());
+  for (const std::size_t blurred : {7U, 8U, 9U}) {
+    EXPECT_LT(document.at("frames").at(blurred).at("focus").get<double>(), 0.1) << blurred;
+  }
+}
 
 }  // namespace
 }  // namespace biotomy::tests

@@ -1,0 +1,26 @@
+#include "acquisition/quality/consecutive_frames.hpp"
+
+#include "acquisition/quality/sharpness.hpp"
+
+namespace biotomy::acquisition {
+
+Assessment ConsecutiveFrames::judge(const cv::Mat& image) {
+  if (expectation_.width == 0) {
+    expectation_.width = image.cols;
+    expectation_.height = image.rows;
+    expectation_.type = image.type();
+    expectation_.focus_sharpness = sharpness(image);
+  }
+  bridge::Frame frame;
+  frame.image = image;
+  Assessment assessment = assess(frame, expectation_, thresholds_);
+  if (assessment.face) expectation_.faces.saw(*assessment.face);
+  return assessment;
+}
+
+void ConsecutiveFrames::accept(const Assessment& assessment) {
+  if (!assessment.face) return;
+  expectation_.faces.accept(layer_++, assessment.face, assessment.face_change);
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include <opencv2/core/mat.hpp>
+
+#include "acquisition/quality/assessment.hpp"
+
+namespace biotomy::acquisition {
+
+/// Judges images as the daemon judges the frames of consecutive layers, long after they were taken:
+/// each is compared with those before it. What only the camera knew is not judged: when a frame was
+/// exposed, and what a focus search found.
+class ConsecutiveFrames {
+ public:
+  /// A layer's images are of the size and kind of the first.
+  explicit ConsecutiveFrames(const QualityThresholds& thresholds) : thresholds_(thresholds) {}
+
+  /// The next image, CV_8UC3 or CV_16UC3, R G B.
+  Assessment judge(const cv::Mat& image);
+
+  /// The image judged last is a layer: the next ones are compared with it.
+  void accept(const Assessment& assessment);
+
+ private:
+  QualityThresholds thresholds_;
+  FrameExpectation expectation_;
+  std::int64_t layer_ = 1;
+};
+
+}  // namespace biotomy::acquisition
