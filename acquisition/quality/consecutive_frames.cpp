@@ -1,7 +1,5 @@
 #include "acquisition/quality/consecutive_frames.hpp"
 
-#include "acquisition/quality/sharpness.hpp"
-
 namespace biotomy::acquisition {
 
 Assessment ConsecutiveFrames::judge(const cv::Mat& image) {
@@ -9,8 +7,8 @@ Assessment ConsecutiveFrames::judge(const cv::Mat& image) {
     expectation_.width = image.cols;
     expectation_.height = image.rows;
     expectation_.type = image.type();
-    expectation_.focus_sharpness = sharpness(image);
   }
+  expectation_.layer = layer_;
   bridge::Frame frame;
   frame.image = image;
   Assessment assessment = assess(frame, expectation_, thresholds_);
@@ -20,7 +18,9 @@ Assessment ConsecutiveFrames::judge(const cv::Mat& image) {
 
 void ConsecutiveFrames::accept(const Assessment& assessment) {
   if (!assessment.face) return;
-  expectation_.faces.accept(layer_++, assessment.face, assessment.face_change);
+  expectation_.faces.accept(layer_, assessment.face, assessment.face_change);
+  expectation_.sharpness.accept(assessment.measures);
+  ++layer_;
 }
 
 }  // namespace biotomy::acquisition

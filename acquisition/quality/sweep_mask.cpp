@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kOverexposed = 0.5;  ///< part of a frame's pixels
 constexpr double kLeastUsable = 0.05;
+constexpr double kVeryLeastUsable = 0.005;
 constexpr int kWidestMargin = 100;  ///< this part of the width
 
 /// JPEG writes a little less than full scale where the picture was clipped.
@@ -28,6 +29,21 @@ std::int64_t mark_clipped(const Sample* pixels, int width, int level, std::uint8
     ++clipped;
   }
   return clipped;
+}
+
+/// What is not clipped, nor within a margin of it.
+cv::Mat usable_beside(const cv::Mat& clipped, double least) {
+  const int widest = clipped.cols / kWidestMargin;
+  for (int margin = widest;; margin /= 2) {
+    cv::Mat wide;
+    const cv::Size square(2 * margin + 1, 2 * margin + 1);
+    cv::dilate(clipped, wide, cv::getStructuringElement(cv::MORPH_RECT, square));
+    cv::Mat usable = 1 - wide;
+    if (cv::countNonZero(usable) > least * static_cast<double>(usable.total())) {
+      return usable;
+    }
+    if (margin == 0) return {};
+  }
 }
 
 }  // namespace
@@ -45,7 +61,8 @@ int clipping_level(const cv::Mat& image) {
 }
 
 SweepMask::SweepMask(cv::Size frame)
-    : clipped_(cv::Mat::zeros((frame.height + 1) / 2, (frame.width + 1) / 2, CV_8UC1)) {}
+    : clipped_(cv::Mat::zeros((frame.height + 1) / 2, (frame.width + 1) / 2, CV_8UC1)),
+      clipped_in_fewer_(clipped_.clone()) {}
 
 double SweepMask::add(const cv::Mat& image) {
   const int level = clipping_level(image);
@@ -58,22 +75,18 @@ double SweepMask::add(const cv::Mat& image) {
                    : mark_clipped(image.ptr<std::uint8_t>(y), image.cols, level, marks);
   }
   const double part = static_cast<double>(clipped) / static_cast<double>(image.total());
-  if (part <= kOverexposed) clipped_ |= found;
+  clipped_ |= found;
+  if (part <= kOverexposed) {
+    clipped_in_fewer_ |= found;
+    ++fewer_;
+  }
   return part;
 }
 
 cv::Mat SweepMask::usable() const {
-  const int widest = clipped_.cols / kWidestMargin;
-  for (int margin = widest;; margin /= 2) {
-    cv::Mat wide;
-    const cv::Size square(2 * margin + 1, 2 * margin + 1);
-    cv::dilate(clipped_, wide, cv::getStructuringElement(cv::MORPH_RECT, square));
-    cv::Mat usable = 1 - wide;
-    if (cv::countNonZero(usable) > kLeastUsable * static_cast<double>(usable.total())) {
-      return usable;
-    }
-    if (margin == 0) return {};
-  }
+  cv::Mat usable = usable_beside(clipped_, kLeastUsable);
+  if (usable.empty() && fewer_ > 1) usable = usable_beside(clipped_in_fewer_, kLeastUsable);
+  return usable.empty() ? usable_beside(clipped_, kVeryLeastUsable) : usable;
 }
 
 }  // namespace biotomy::acquisition

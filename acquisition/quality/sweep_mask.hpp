@@ -11,8 +11,8 @@ namespace biotomy::acquisition {
 ///
 /// A spot that is clipped has a steep rim, which grows as the spot gets blurred: its gradients rise
 /// where all others fall. What a spot covers in any frame, and a margin, is therefore left out of
-/// all of them. A frame that is clipped over more than half of its area would leave nothing: it has
-/// no say in what the others may show.
+/// all of them. When that leaves nothing, frames that are clipped over more than half of their area
+/// have no say in what the others may show.
 class SweepMask {
  public:
   explicit SweepMask(cv::Size frame);
@@ -23,11 +23,14 @@ class SweepMask {
   double add(const cv::Mat& image);
 
   /// After the last frame: where the frames can be compared, CV_8UC1 of 0 and 1 at half the
-  /// resolution. The margin is as wide as leaves at least a twentieth; empty when none does.
+  /// resolution. The margin is as wide as leaves at least a twentieth; without one, a 200th; empty
+  /// when there is less.
   cv::Mat usable() const;
 
  private:
-  cv::Mat clipped_;  ///< CV_8UC1 at half the resolution: clipped in some frame
+  cv::Mat clipped_;           ///< CV_8UC1 at half the resolution: clipped in some frame
+  cv::Mat clipped_in_fewer_;  ///< likewise, in some frame that is not clipped over more than half
+  int fewer_ = 0;             ///< frames of that kind
 };
 
 /// The least value that counts as clipped in this image, of its samples' scale.
