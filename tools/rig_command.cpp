@@ -1,7 +1,5 @@
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -11,116 +9,23 @@
 #include <string>
 #include <thread>
 
-#include <httplib.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "reconstruct/errors.hpp"
 #include "tools/command.hpp"
+#include "tools/daemon_connection.hpp"
 
 namespace biotomy::tools {
 namespace {
 
 using nlohmann::json;
-using reconstruct::InvalidRequest;
-
-constexpr int kConnectSeconds = 3;
-constexpr int kAnswerSeconds = 15;
-constexpr const char* kTokenVariable = "BIOTOMY_TOKEN";
 
 struct RigOptions {
-  std::string url = "http://127.0.0.1:8080";
-  std::string token_file;
+  DaemonOptions daemon;
   std::string reason;
   bool as_json = false;
   int interval_ms = 500;
 };
-
-/// The daemon of a rig, over HTTP. What goes wrong is one line that says what to do.
-class Daemon {
- public:
-  /// `token` may be empty: then only a daemon that lets everybody read answers.
-  Daemon(const std::string& url, const std::string& token) : url_(url), client_(checked(url)) {
-    if (!token.empty()) client_.set_bearer_token_auth(token.c_str());
-    client_.set_connection_timeout(kConnectSeconds);
-    client_.set_read_timeout(kAnswerSeconds);
-    client_.set_write_timeout(kAnswerSeconds);
-  }
-
-  std::string status_text() { return answer(client_.Get("/api/v1/status")); }
-
-  json status() {
-    json document = json::parse(status_text(), nullptr, false);
-    if (!document.is_object() || !document.contains("state")) {
-      throw std::runtime_error(url_ + " answers, but not as biotomyd does: is the URL right?");
-    }
-    return document;
-  }
-
-  std::string command(const std::string& name, const std::string& reason) {
-    const std::string body = reason.empty() ? "{}" : json{{"reason", reason}}.dump();
-    const std::string text =
-        answer(client_.Post("/api/v1/control/" + name, body, "application/json"));
-    const json document = json::parse(text, nullptr, false);
-    return document.is_object() ? document.value("message", "") : "";
-  }
-
- private:
-  static const std::string& checked(const std::string& url) {
-    if (!url.starts_with("http://")) {
-      throw InvalidRequest("--url: \"" + url + "\" is not possible; expected http://host:port");
-    }
-    return url;
-  }
-
-  std::string answer(const httplib::Result& result) const {
-    if (!result) {
-      throw std::runtime_error("no biotomyd answers at " + url_ +
-                               ": is it running, and is --url right?");
-    }
-    if (result->status == 200) return result->body;
-    const json document = json::parse(result->body, nullptr, false);
-    std::string message = "HTTP status " + std::to_string(result->status);
-    if (document.is_object() && document.contains("error") && document["error"].is_object()) {
-      message = document["error"].value("message", message);
-    }
-    if (result->status == 401) {
-      message =
-          "the daemon at " + url_ + " wants a token: give --token-file, or set " + kTokenVariable;
-    } else if (result->status == 403) {
-      message = "the daemon at " + url_ +
-                " does not know the token: give one that stands in its service.token_file";
-    } else if (result->status == 429) {
-      message = "the daemon at " + url_ + " turns this computer away for a while: " + message;
-    }
-    throw std::runtime_error(message);
-  }
-
-  std::string url_;
-  httplib::Client client_;
-};
-
-/// The last word of the file's first line: it may be "name token". Empty when no token was given.
-std::string token_of(const RigOptions& options) {
-  if (options.token_file.empty()) {
-    const char* variable = std::getenv(kTokenVariable);
-    return variable == nullptr ? "" : variable;
-  }
-  std::ifstream file(options.token_file);
-  std::string token;
-  for (std::string line; token.empty() && std::getline(file, line);) {
-    std::istringstream words(line);
-    for (std::string word; words >> word && word.front() != '#';) token = word;
-  }
-  if (token.empty()) {
-    throw std::runtime_error("--token-file: no token can be read from " + options.token_file);
-  }
-  return token;
-}
-
-Daemon daemon_of(const RigOptions& options) {
-  return Daemon(options.url, token_of(options));
-}
 
 std::string duration_text(double seconds) {
   const long minutes = std::lround(seconds / 60.0);
@@ -220,7 +125,7 @@ bool is_in_a_step(const std::string& state) {
 
 /// Prints a line for each layer and each change of state that a person should know of, until the
 /// job is at its end.
-void watch(Daemon& daemon, const RigOptions& options) {
+void watch(DaemonConnection& daemon, const RigOptions& options) {
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
   std::string shown;
   while (true) {
@@ -246,7 +151,7 @@ void watch(Daemon& daemon, const RigOptions& options) {
   }
 }
 
-void show_status(Daemon& daemon, const RigOptions& options) {
+void show_status(DaemonConnection& daemon, const RigOptions& options) {
   if (options.as_json) {
     std::cout << daemon.status_text() << '\n';
   } else {
@@ -254,24 +159,13 @@ void show_status(Daemon& daemon, const RigOptions& options) {
   }
 }
 
-void add_connection_options(CLI::App& command, const std::shared_ptr<RigOptions>& options) {
-  command.add_option("--url", options->url, "where biotomyd listens")->capture_default_str();
-  command.add_option("--token-file", options->token_file,
-                     std::string("a file with the token; else ") + kTokenVariable + " holds it");
-}
-
 void add_control(CLI::App& rig, const std::string& name, const std::string& description,
                  const std::shared_ptr<RigOptions>& options) {
   CLI::App* command = rig.add_subcommand(name, description);
-  add_connection_options(*command, options);
+  add_daemon_options(*command, options->daemon);
   command->add_option("--reason", options->reason, "a few words for the journal");
   command->callback([options, name] {
-    if (token_of(*options).empty()) {
-      throw InvalidRequest(
-          std::string("a command needs the rig's token: give --token-file, or set ") +
-          kTokenVariable);
-    }
-    std::cout << daemon_of(*options).command(name, options->reason) << '\n';
+    std::cout << DaemonConnection(options->daemon).command(name, options->reason) << '\n';
   });
 }
 
@@ -283,10 +177,10 @@ void add_rig_command(CLI::App& app) {
   rig->require_subcommand(1);
 
   CLI::App* status = rig->add_subcommand("status", "what the rig is doing");
-  add_connection_options(*status, options);
+  add_daemon_options(*status, options->daemon);
   status->add_flag("--json", options->as_json, "as the daemon gives it");
   status->callback([options] {
-    Daemon daemon = daemon_of(*options);
+    DaemonConnection daemon(options->daemon);
     show_status(daemon, *options);
   });
 
@@ -300,12 +194,12 @@ void add_rig_command(CLI::App& app) {
       rig->add_subcommand("watch",
                           "follows the job to its end: exit 0 when it is done, 1 with the "
                           "alarm when the rig is stopped");
-  add_connection_options(*watch_command, options);
+  add_daemon_options(*watch_command, options->daemon);
   watch_command->add_option("--interval", options->interval_ms, "milliseconds between two looks")
       ->check(CLI::Range(50, 60000))
       ->capture_default_str();
   watch_command->callback([options] {
-    Daemon daemon = daemon_of(*options);
+    DaemonConnection daemon(options->daemon);
     watch(daemon, *options);
   });
 }
