@@ -1,6 +1,10 @@
 #include "acquisition/job/preflight.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "acquisition/job/capture.hpp"
 #include "acquisition/job/job_states.hpp"
@@ -71,6 +75,43 @@ void check_frame(const bridge::Frame& frame, const bridge::CameraDescription& ca
   }
 }
 
+std::string number_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// How the camera is set, which is the same for all layers: else a change of the light could not be
+/// told from a change of the tissue.
+std::vector<Constant> constants_of(const bridge::CameraSettings& settings,
+                                   const bridge::CameraDescription& camera) {
+  return {{"camera.exposure_us", std::to_string(settings.exposure.count())},
+          {"camera.gain", number_text(settings.gain)},
+          {"camera.red_gain", number_text(settings.red_gain)},
+          {"camera.blue_gain", number_text(settings.blue_gain)},
+          {"calibration", camera.correction.empty() ? "none" : camera.correction}};
+}
+
+/// What the camera did beside what it was asked for. A sensor exposes by whole lines and amplifies
+/// in steps; beyond that something else than the configuration sets it.
+void check_exposure(const bridge::Frame& frame, const bridge::CameraSettings& settings) {
+  constexpr double kSteps = 0.1;
+  const auto complain = [](const std::string& what, double did, double asked) {
+    throw StepFailure("the camera used " + what + " " + number_text(did) + " and was asked for " +
+                      number_text(asked) +
+                      ": switch its automatic modes off, or set what it can do");
+  };
+  const auto exposure = static_cast<double>(frame.exposure.count());
+  const auto asked = static_cast<double>(settings.exposure.count());
+  // 0 is a camera that does not say.
+  if (exposure > 0.0 && std::abs(exposure - asked) > std::max(kSteps * asked, 100.0)) {
+    complain("an exposure in µs of", exposure, asked);
+  }
+  if (frame.gain > 0.0 && std::abs(frame.gain - settings.gain) > kSteps * settings.gain) {
+    complain("a gain of", frame.gain, settings.gain);
+  }
+}
+
 /// Records would have wrong times for ever: a board without a battery begins in 1970.
 void check_clock(std::chrono::system_clock::time_point now) {
   if (now < std::chrono::sys_days(kProgramYear)) {
@@ -112,9 +153,9 @@ std::optional<std::string> stage_complaint(const JobSettings& settings,
 PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
                           const Surroundings& surroundings) {
   PreflightFindings findings;
+  camera.apply(settings.camera.settings);
   findings.camera = camera.describe();
   check_lens(settings, findings.camera);
-  camera.apply(settings.camera.settings);
   check_clock(surroundings.wall_clock());
   findings.records =
       std::make_shared<SampleRecords>(settings.plan, settings.store, findings.camera, surroundings);
@@ -122,6 +163,13 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
   findings.disk_left_layers = findings.records->disk_left_layers();
 
   check_clock_against(findings.journal.last_event_at, surroundings.wall_clock());
+  findings.records->hold_constant(constants_of(settings.camera.settings, findings.camera));
+  if (!findings.camera.correction.empty()) {
+    findings.records->record_event({.kind = "recovery",
+                                    .state = to_string(JobState::preflight),
+                                    .text = "frames are corrected by " + findings.camera.correction,
+                                    .at = utc_text(surroundings.wall_clock())});
+  }
   // Once there are records, and whatever it shows: no frame is taken without one.
   const bridge::Frame trial = capture(camera, settings.camera.capture_time_out);
   findings.records->record_event({.kind = "recovery",
@@ -129,6 +177,7 @@ PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
                                   .text = "trial frame " + std::to_string(trial.sequence),
                                   .at = utc_text(surroundings.wall_clock())});
   check_frame(trial, findings.camera, settings.plan);
+  check_exposure(trial, settings.camera.settings);
 
   const std::int64_t layers_to_do = settings.plan.layers - findings.journal.last_committed;
   const std::int64_t reserve = settings.limits.disk_reserve_layers;

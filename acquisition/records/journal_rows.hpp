@@ -85,6 +85,14 @@ struct LayerRow {
   std::vector<Metric> metrics;
 };
 
+/// Something that is the same for all layers of a sample.
+struct Constant {
+  std::string name;   ///< a key of the configuration
+  std::string value;  ///< as text, for a person to read
+
+  friend bool operator==(const Constant&, const Constant&) = default;
+};
+
 /// What the job must know of its own past.
 struct JournalSummary {
   std::int64_t last_committed = 0;  ///< layers 1 to this one are committed
@@ -94,6 +102,7 @@ struct JournalSummary {
   std::string last_event_at;  ///< ISO 8601, UTC; empty if none
   std::optional<GrindRow> last_grind;
   std::optional<FocusRow> last_focus;  ///< the last that was found; without its points
+  std::vector<Constant> constants;     ///< by their names; none in journals of older daemons
 };
 
 }  // namespace biotomy::acquisition

@@ -81,6 +81,12 @@ CREATE TABLE events (
     R"sql(
 -- JSON: {across_um, down_um, angle_degrees, tiles}: how the face leans; NULL where it did not tell.
 ALTER TABLE focus_sweeps ADD COLUMN lean TEXT;
+
+-- What is the same for all layers of the sample: how they are photographed.
+CREATE TABLE constants (
+  name   TEXT PRIMARY KEY,                -- a key of the configuration
+  value  TEXT NOT NULL
+);
 )sql",
 };
 

@@ -218,6 +218,21 @@ void LayerJournal::record_event(const JobEventRow& event) {
   });
 }
 
+void LayerJournal::record_constants(const std::vector<Constant>& constants) {
+  with_journal(state_->path, [&] {
+    SQLite::Transaction transaction(state_->database);
+    state_->database.exec("DELETE FROM constants");
+    for (const Constant& constant : constants) {
+      SQLite::Statement insert(state_->database,
+                               "INSERT INTO constants (name, value) VALUES (?, ?)");
+      insert.bind(1, constant.name);
+      insert.bind(2, constant.value);
+      insert.exec();
+    }
+    transaction.commit();
+  });
+}
+
 void LayerJournal::commit_layer(const AttemptRow& attempt, std::uint64_t bytes,
                                 const std::string& at) {
   with_journal(state_->path, [&] {
@@ -290,6 +305,13 @@ JournalSummary LayerJournal::summary() const {
                                     .found = true,
                                     .points = {},
                                     .lean = {}};
+    }
+
+    SQLite::Statement constants(state_->database,
+                                "SELECT name, value FROM constants ORDER BY name");
+    while (constants.executeStep()) {
+      summary.constants.push_back(
+          {constants.getColumn(0).getString(), constants.getColumn(1).getString()});
     }
     return summary;
   });

@@ -29,6 +29,9 @@ class LayerJournal {
   void record_focus(const FocusRow& focus, const std::string& at);
   void record_event(const JobEventRow& event);
 
+  /// In place of those that were recorded before.
+  void record_constants(const std::vector<Constant>& constants);
+
   /// Records the accepted attempt and commits its layer, both or neither.
   void commit_layer(const AttemptRow& attempt, std::uint64_t bytes, const std::string& at);
 

@@ -104,6 +104,23 @@ void SampleRecords::check_committed_files() const {
   }
 }
 
+void SampleRecords::hold_constant(const std::vector<Constant>& constants) {
+  const JournalSummary known = journal_.summary();
+  if (known.last_committed == 0 || known.constants.empty()) {
+    journal_.record_constants(constants);
+    return;
+  }
+  for (const Constant& now : constants) {
+    for (const Constant& then : known.constants) {
+      if (then.name != now.name || then.value == now.value) continue;
+      throw SampleError("layers 1 to " + std::to_string(known.last_committed) +
+                        " were photographed with " + then.name + " = " + then.value +
+                        ", and the next would be with " + now.value +
+                        ": restore it, or name another sample");
+    }
+  }
+}
+
 void SampleRecords::begin_grind(const GrindRow& grind) {
   journal_.begin_grind(grind, now());
 }

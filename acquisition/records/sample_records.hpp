@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "acquisition/job/job_plan.hpp"
 #include "acquisition/job/surroundings.hpp"
@@ -43,6 +44,10 @@ class SampleRecords {
 
   const reconstruct::SampleFolder& sample() const { return sample_; }
   JournalSummary summary() const { return journal_.summary(); }
+
+  /// What is the same for all layers: recorded before the first one is committed, afterwards only
+  /// compared. Throws SampleError for a difference.
+  void hold_constant(const std::vector<Constant>& constants);
 
   void begin_grind(const GrindRow& grind);
   void end_grind(std::uint32_t sequence, bridge::CommandResult result,

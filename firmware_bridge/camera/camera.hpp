@@ -15,7 +15,9 @@ struct CameraSettings {
   double blue_gain = 1.0;
   /// Where the lens focuses, in dioptres: the reciprocal of the distance in metres. Not set: the
   /// lens is left alone.
-  std::optional<double> lens_position;
+  std::optional<double> lens_position{};
+
+  friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
 
 /// How far a lens can be driven, in dioptres.
@@ -29,6 +31,7 @@ struct CameraDescription {
   int width = 0;
   int height = 0;
   std::optional<LensRange> lens{};  ///< of a camera that can drive its lens
+  std::string correction = {};  ///< what was done to its frames, in words; empty if nothing
 };
 
 /// A camera that takes one still at a time. One thread owns it. Every call throws DeviceError.

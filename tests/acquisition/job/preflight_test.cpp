@@ -91,5 +91,49 @@ TEST(Preflight, RefusesACameraThatGivesNoFrame) {
   expect_refusal(bench, "camera: gone");
 }
 
+TEST(Preflight, RefusesACameraSetOtherwiseThanForTheLayersBefore) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::storing));
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.say(OperatorCommand::pause);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  const auto grinds = bench.stage.ground().size();
+
+  bench.settings.camera.settings.red_gain = 1.25;
+  bench.start_daemon();
+  bench.say(OperatorCommand::start);
+  ASSERT_TRUE(bench.reach(JobState::faulted, 500));
+  EXPECT_THAT(bench.alarm(), HasSubstr("were photographed with camera.red_gain = 1, and the next "
+                                       "would be with 1.25: restore it"));
+  EXPECT_EQ(bench.stage.ground().size(), grinds);
+
+  bench.settings.camera.settings.red_gain = 1.0;
+  bench.start_daemon();
+  bench.start_job();
+  EXPECT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+}
+
+TEST(Preflight, TakesOtherSettingsOfTheCameraBeforeTheFirstLayer) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.say(OperatorCommand::abort);
+  ASSERT_TRUE(bench.reach(JobState::aborted));
+  bench.settings.camera.settings.blue_gain = 1.5;
+  bench.start_daemon();
+  bench.start_job();
+  EXPECT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+}
+
+TEST(Preflight, RefusesACameraThatExposesAsItLikes) {
+  JobBench bench;
+  bench.settings.camera.settings.exposure = std::chrono::microseconds(15000);
+  expect_refusal(bench, "the camera used an exposure in µs of 10000 and was asked for 15000");
+  bench.settings.camera.settings.exposure = std::chrono::microseconds(10000);
+  bench.settings.camera.settings.gain = 2.0;
+  expect_refusal(bench, "the camera used a gain of 1 and was asked for 2");
+}
+
 }  // namespace
 }  // namespace biotomy::tests
