@@ -16,5 +16,6 @@ void add_rebuild_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_rig_command(CLI::App& app);
 void add_qc_command(CLI::App& app);
+void add_calibrate_command(CLI::App& app);
 
 }  // namespace biotomy::tools

@@ -91,7 +91,8 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
 }
 
 bool Job::at_rest() const {
-  return is_at_rest(state_) && fault_parking_ == FaultParking::none && !stop_wanted_;
+  return is_at_rest(state_) && !calibration_ && fault_parking_ == FaultParking::none &&
+         !stop_wanted_;
 }
 
 void Job::tick(TimePoint now) {
@@ -157,6 +158,7 @@ void Job::supervise(TimePoint now) {
 }
 
 void Job::advance(TimePoint now) {
+  if (calibration_) poll_calibration(now);
   if (state_ == JobState::faulted) {
     park_after_fault(now);
     return;
@@ -455,6 +457,7 @@ void Job::publish() {
   status.stage = last_status_;
   status.lines = inputs_;
   status.alarm = alarm_;
+  status.calibration = calibration_status_;
   if (cycle_) {
     status.layer = cycle_->layer();
     status.attempt = cycle_->attempt();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/calibration/calibration_run.hpp"
 #include "acquisition/job/conditioning.hpp"
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/early_notes.hpp"
@@ -36,6 +37,8 @@ struct JobParts {
   Worker& volume_worker;  ///< for the volume, which is never in the rig's way
   OperatorDesk& desk;
   StatusBoard& board;
+  /// The camera without any correction of its frames, for calibrations; null: `camera` itself.
+  bridge::Camera* plain_camera = nullptr;
 };
 
 /// A job from its start to its end, moved on by `tick`: exchange the heartbeat, read the inputs,
@@ -71,6 +74,9 @@ class Job {
   OperatorReply obey(OperatorCommand command, TimePoint now);
   OperatorReply begin(JobEvent event, TimePoint now);
   OperatorReply acknowledge(TimePoint now);
+  OperatorReply calibrate(CalibrationKind kind, TimePoint now);
+  void poll_calibration(TimePoint now);
+  void end_calibration(CalibrationStatus::Progress progress, const std::string& sentence);
   void go_on_by_itself(TimePoint now);
   void wait_for_a_person(const std::string& why);
   void advance(TimePoint now);
@@ -160,6 +166,8 @@ class Job {
   std::optional<VolumeFeed> feed_;
   std::optional<Continuation> continuation_;
   std::unique_ptr<LayerCycle> cycle_;
+  std::unique_ptr<CalibrationRun> calibration_;  ///< while one is under way
+  CalibrationStatus calibration_status_;
 
   std::int64_t committed_ = 0;
   std::int64_t committed_at_start_ = 0;

@@ -24,7 +24,8 @@ OperatorReply refused(std::string sentence) {
 /// is never kept waiting.
 bool needs_sight(OperatorCommand command) {
   return command == OperatorCommand::start || command == OperatorCommand::resume ||
-         command == OperatorCommand::acknowledge;
+         command == OperatorCommand::acknowledge || command == OperatorCommand::calibrate_flat ||
+         command == OperatorCommand::calibrate_dark || command == OperatorCommand::calibrate_white;
 }
 
 }  // namespace
@@ -89,6 +90,10 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
       pause_requested_ = state_ != JobState::pausing;
       return accepted("the step at hand is finished, then the rig is parked");
     case OperatorCommand::abort:
+      if (calibration_) {
+        end_calibration(CalibrationStatus::Progress::failed, "it was given up: abort");
+        return accepted("the calibration is given up");
+      }
       if (!next_state(state_, JobEvent::abort)) {
         return refused("the job is " + state + ": there is nothing to abort");
       }
@@ -96,8 +101,18 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
       return accepted("the rig is stopped and parked");
     case OperatorCommand::acknowledge:
       return acknowledge(now);
+    case OperatorCommand::calibrate_flat:
+      return calibrate(CalibrationKind::flat, now);
+    case OperatorCommand::calibrate_dark:
+      return calibrate(CalibrationKind::dark, now);
+    case OperatorCommand::calibrate_white:
+      return calibrate(CalibrationKind::white, now);
     case OperatorCommand::shut_down:
       shutting_down_ = true;
+      if (calibration_) {
+        end_calibration(CalibrationStatus::Progress::failed,
+                        "it was given up: the daemon is being stopped");
+      }
       pause_requested_ = !is_at_rest(state_);
       return accepted("the rig is brought to rest");
   }
@@ -105,6 +120,7 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
 }
 
 OperatorReply Job::begin(JobEvent event, TimePoint now) {
+  if (calibration_) return refused("a calibration is under way: wait for its end, or abort it");
   if (next_state(state_, event)) {
     go(event, now);
     return accepted("the checks have begun");

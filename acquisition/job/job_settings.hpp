@@ -1,5 +1,6 @@
 #pragma once
 
+#include "acquisition/calibration/calibration_plan.hpp"
 #include "acquisition/focus/focus_settings.hpp"
 #include "acquisition/job/job_plan.hpp"
 #include "acquisition/job/quality_ladder.hpp"
@@ -12,6 +13,7 @@ namespace biotomy::acquisition {
 struct JobSettings {
   JobPlan plan;
   CameraPlan camera;
+  CalibrationPlan calibration;
   FocusSettings focus;
   QualityThresholds thresholds;
   LadderSettings ladder;

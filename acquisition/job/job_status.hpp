@@ -22,6 +22,13 @@ struct Alarm {
   JobState state = JobState::faulted;  ///< in which it came; `faulted`: it is the start's latch
 };
 
+/// What has become of the last calibration that was asked for.
+struct CalibrationStatus {
+  std::string kind;  ///< "flat", "dark", "white"; empty before the first
+  enum class Progress { running, done, failed } progress = Progress::done;
+  std::string sentence;  ///< how far it is, what was found, or why it failed
+};
+
 /// What the daemon shows of itself: a snapshot of one tick.
 struct JobStatus {
   JobState state = JobState::faulted;
@@ -43,6 +50,7 @@ struct JobStatus {
   std::optional<FocusReport> focus;  ///< the last search of this run
   std::optional<std::int64_t> disk_left_layers;
   std::optional<Alarm> alarm;
+  CalibrationStatus calibration;
   VolumeFeed::Progress volume;
 };
 

@@ -22,6 +22,12 @@ const char* to_string(OperatorCommand command) {
       return "abort";
     case OperatorCommand::acknowledge:
       return "acknowledge";
+    case OperatorCommand::calibrate_flat:
+      return "calibrate-flat";
+    case OperatorCommand::calibrate_dark:
+      return "calibrate-dark";
+    case OperatorCommand::calibrate_white:
+      return "calibrate-white";
     case OperatorCommand::shut_down:
       return "shut_down";
   }
@@ -31,7 +37,9 @@ const char* to_string(OperatorCommand command) {
 std::optional<OperatorCommand> operator_command(std::string_view name) {
   constexpr std::array kPersonal = {OperatorCommand::start, OperatorCommand::pause,
                                     OperatorCommand::resume, OperatorCommand::abort,
-                                    OperatorCommand::acknowledge};
+                                    OperatorCommand::acknowledge, OperatorCommand::calibrate_flat,
+                                    OperatorCommand::calibrate_dark,
+                                    OperatorCommand::calibrate_white};
   for (const OperatorCommand command : kPersonal) {
     if (name == to_string(command)) return command;
   }

@@ -15,6 +15,9 @@ enum class OperatorCommand {
   resume,
   abort,
   acknowledge,
+  calibrate_flat,
+  calibrate_dark,
+  calibrate_white,
   shut_down,  ///< from the system, not from a person: come to rest and start nothing more
 };
 

@@ -132,8 +132,10 @@ ApiResponse Api::layers(const ApiRequest& request) const {
 ApiResponse Api::control(const std::string& name, const ApiRequest& request) const {
   const std::optional<OperatorCommand> command = operator_command(name);
   if (!command) {
-    return error_response(404, "there is no command \"" + name +
-                                   "\": it is start, pause, resume, abort or acknowledge");
+    return error_response(404,
+                          "there is no command \"" + name +
+                              "\": it is start, pause, resume, abort, acknowledge, calibrate-flat, "
+                              "calibrate-dark or calibrate-white");
   }
   if (request.method != "POST") return wrong_method(request, "POST");
   const Ruling ruling = parts_.access.command(request.client, request.authorization, name);

@@ -212,6 +212,27 @@ JobPlan read_job(const CheckedTable& table) {
   return job;
 }
 
+CalibrationPlan read_calibration(const CheckedTable& table) {
+  CalibrationPlan calibration;
+  calibration.folder = table.resolve(
+      table.get(TextKey{.name = "folder",
+                        .fallback = calibration.folder.string(),
+                        .description = "where biotomy calibrate puts what it records"}));
+  calibration.flat = table.get(
+      FlagKey{.name = "flat",
+              .fallback = calibration.flat,
+              .description =
+                  "frames are corrected by the flat field in it: pixel by pixel the same light"});
+  calibration.dark = table.get(
+      FlagKey{.name = "dark",
+              .fallback = calibration.dark,
+              .description = "frames are corrected by the dark field in it: what the sensor shows "
+                             "without light"});
+  calibration.frames =
+      count(table, "frames", calibration.frames, 1, 1000, "whose mean a calibration is");
+  return calibration;
+}
+
 void read_light_and_surface(const CheckedTable& table, QualityThresholds& thresholds) {
   thresholds.maximum_brightness_change =
       number(table, "maximum_brightness_change", thresholds.maximum_brightness_change, "", 0.0,
@@ -301,6 +322,7 @@ Configuration read(const CheckedTable& document) {
   configuration.stage = read_stage(document.table("stage"));
   configuration.lines = read_lines(document.table("lines"));
   configuration.camera = read_camera(document.table("camera"), configuration.job.camera);
+  configuration.job.calibration = read_calibration(document.table("calibration"));
   configuration.job.focus =
       read_focus(document.table("focus"),
                  std::max(configuration.job.plan.pixel_x, configuration.job.plan.pixel_y));

@@ -19,6 +19,7 @@ const char* about(const std::string& table) {
       {"lines.trigger", "Of the gpiod backend; may be left out."},
       {"lines.tower_light", "Of the gpiod backend; may be left out. Lit while an alarm waits."},
       {"camera", "The camera and how it takes a frame."},
+      {"calibration", "What biotomy calibrate records, and whether frames are corrected by it."},
       {"focus", "How the focus follows the face and is searched."},
       {"quality", "When a frame is good enough, and what is done when it is not."},
       {"store", "How images and volume are kept."},

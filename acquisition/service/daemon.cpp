@@ -12,6 +12,7 @@
 
 #include <pthread.h>
 
+#include "acquisition/calibration/corrected_camera.hpp"
 #include "acquisition/job/control_loop.hpp"
 #include "acquisition/job/job.hpp"
 #include "acquisition/log.hpp"
@@ -214,7 +215,8 @@ int run_daemon(const Configuration& configuration) {
   const std::filesystem::path journal = plan.sample / kJournalName;
   const auto devices_stage = make_stage(configuration.stage);
   const auto lines = make_lines(configuration.lines);
-  const auto camera = make_camera(configuration.camera);
+  const auto devices_camera = make_camera(configuration.camera);
+  CorrectedCamera camera(*devices_camera, configuration.job.calibration);
   LinkCounts link;
   CountedStage stage(*devices_stage, link);
 
@@ -229,7 +231,8 @@ int run_daemon(const Configuration& configuration) {
                   log_warning("access", line);
                   desk.remark(line);
                 });
-  Job job(configuration.job, {stage, *lines, *camera, worker, volume_worker, desk, board},
+  Job job(configuration.job,
+          {stage, *lines, camera, worker, volume_worker, desk, board, devices_camera.get()},
           real_surroundings(), read_earlier_run(journal));
   const Api api({board, desk, access, journal, [&] {
                    return metrics_page(*board.look(), observers.metrics(), link,

@@ -88,6 +88,16 @@ std::string dumped(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+json calibration_json(const CalibrationStatus& calibration) {
+  using Progress = CalibrationStatus::Progress;
+  if (calibration.kind.empty()) return nullptr;
+  return {{"kind", calibration.kind},
+          {"progress", calibration.progress == Progress::running ? "running"
+                       : calibration.progress == Progress::done  ? "done"
+                                                                 : "failed"},
+          {"sentence", calibration.sentence}};
+}
+
 }  // namespace
 
 std::string status_json(const JobStatus& status) {
@@ -115,6 +125,7 @@ std::string status_json(const JobStatus& status) {
                  {"focus", focus_json(status.focus)},
                  {"disk_left_layers", or_null(status.disk_left_layers)},
                  {"alarm", alarm},
+                 {"calibration", calibration_json(status.calibration)},
                  {"volume",
                   {{"layers_present", status.volume.layers_present},
                    {"finished", status.volume.finished},

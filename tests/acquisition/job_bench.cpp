@@ -58,8 +58,8 @@ JobBench::JobBench() {
 void JobBench::start_daemon() {
   job.reset();
   job = std::make_unique<Job>(
-      settings, JobParts{stage, lines, camera, worker, volume_worker, desk, board}, surroundings,
-      read_earlier_run(settings.plan.sample / "journal.sqlite"));
+      settings, JobParts{stage, lines, camera, worker, volume_worker, desk, board, plain_camera},
+      surroundings, read_earlier_run(settings.plan.sample / "journal.sqlite"));
   tick();
 }
 

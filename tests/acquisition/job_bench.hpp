@@ -22,6 +22,7 @@ struct JobBench {
   FakeStage stage;
   FakeLines lines;
   FakeCamera camera{stage};
+  bridge::Camera* plain_camera = nullptr;  ///< as in JobParts
   InlineWorker worker;
   InlineWorker volume_worker;
   acquisition::OperatorDesk desk;

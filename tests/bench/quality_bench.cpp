@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "acquisition/calibration/field_correction.hpp"
 #include "acquisition/quality/face_change.hpp"
 #include "acquisition/quality/face_print.hpp"
 #include "acquisition/quality/frame_measures.hpp"
@@ -38,6 +39,20 @@ cv::Mat frame(std::uint64_t depth, std::uint64_t exposure, int type) {
 
 void count_pixels(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
+}
+
+/// Corrects one frame again and again: what is in it makes no difference.
+void correct_field(benchmark::State& state, int type, bool with_dark) {
+  cv::Mat image = frame(1, 2, type);
+  const cv::Mat flat = frame(3, 4, CV_16UC3);
+  cv::Mat dark;
+  if (with_dark) dark = cv::Mat(flat.size(), CV_16UC3, cv::Scalar::all(300));
+  const FieldCorrection correction(flat, dark, type);
+  for (auto _ : state) {
+    correction.apply(image);
+    benchmark::DoNotOptimize(image.data);
+  }
+  count_pixels(state);
 }
 
 void find_rows(benchmark::State& state, int type) {
@@ -77,6 +92,9 @@ void compare(benchmark::State& state, std::uint64_t depth) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  benchmark::RegisterBenchmark("correct/8/flat", correct_field, CV_8UC3, false)->UseRealTime();
+  benchmark::RegisterBenchmark("correct/8/both", correct_field, CV_8UC3, true)->UseRealTime();
+  benchmark::RegisterBenchmark("correct/16/both", correct_field, CV_16UC3, true)->UseRealTime();
   benchmark::RegisterBenchmark("rows/8", find_rows, CV_8UC3)->UseRealTime();
   benchmark::RegisterBenchmark("rows/16", find_rows, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("measures/8", measure, CV_8UC3)->UseRealTime();

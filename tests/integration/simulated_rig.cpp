@@ -43,9 +43,9 @@ void SimulatedRig::write_twin_configuration() const {
                  plan_.twin_stage_settings +
                  "[rig]\nsocket = \"unix://rig.socket\"\n[camera]\nwidth = " +
                  std::to_string(plan_.width) + "\nheight = " + std::to_string(plan_.height) +
-                 "\npixel = " + std::to_string(plan_.pixel_um) +
-                 "\ncolumn_offset = " + std::to_string(kColumnOffsetUm) +
-                 "\n[block]\nfirst_face = " + std::to_string(plan_.first_face_um) + "\n");
+                 "\npixel = " + std::to_string(plan_.pixel_um) + "\ncolumn_offset = " +
+                 std::to_string(kColumnOffsetUm) + "\n" + plan_.twin_camera_settings +
+                 "[block]\nfirst_face = " + std::to_string(plan_.first_face_um) + "\n");
 }
 
 void SimulatedRig::write_daemon_configuration() const {

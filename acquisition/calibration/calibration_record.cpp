@@ -1,0 +1,133 @@
+#include "acquisition/calibration/calibration_record.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/picture/picture_notes.hpp"
+#include "reconstruct/picture/tiff_writer.hpp"
+#include "reconstruct/sample/tiff_image.hpp"
+#include "reconstruct/store/durable_file.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr std::size_t kHashInName = 12;
+
+fs::path record_path(const fs::path& folder, FieldKind kind) {
+  return folder / (std::string(to_string(kind)) + ".json");
+}
+
+std::string file_name(FieldKind kind, const std::string& sha256) {
+  return std::string(to_string(kind)) + "-" + sha256.substr(0, kHashInName) + ".tif";
+}
+
+/// Means of this kind that the record does not name. What cannot be removed does no harm.
+void remove_former(const fs::path& folder, FieldKind kind, const std::string& in_force) {
+  const std::string prefix = std::string(to_string(kind)) + "-";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(".tif") && name != in_force) {
+      std::error_code ignored;
+      fs::remove(entry.path(), ignored);
+    }
+  }
+}
+
+ordered_json to_json(const CalibrationFrame& frame, FieldKind kind, const std::string& sha256) {
+  return {{"kind", to_string(kind)},
+          {"file", file_name(kind, sha256)},
+          {"sha256", sha256},
+          {"taken_at", frame.taken_at},
+          {"width", frame.mean.cols},
+          {"height", frame.mean.rows},
+          {"bits", frame.bits},
+          {"frames", frame.frames},
+          {"exposure_us", frame.settings.exposure.count()},
+          {"gain", frame.settings.gain},
+          {"red_gain", frame.settings.red_gain},
+          {"blue_gain", frame.settings.blue_gain}};
+}
+
+std::string again(FieldKind kind) {
+  return std::string(": record it again with biotomy calibrate ") + to_string(kind);
+}
+
+}  // namespace
+
+const char* to_string(FieldKind kind) {
+  return kind == FieldKind::flat ? "flat" : "dark";
+}
+
+std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
+                                    const CalibrationFrame& frame) {
+  try {
+    reconstruct::create_folders_durably(folder);
+    const std::vector<std::byte> bytes = reconstruct::encode_tiff(frame.mean, {});
+    const std::string sha256 = reconstruct::sha256(bytes);
+    const std::string name = file_name(kind, sha256);
+    reconstruct::write_durably(folder / name, bytes);
+    reconstruct::write_durably(record_path(folder, kind),
+                               to_json(frame, kind, sha256).dump(2) + "\n");
+    remove_former(folder, kind, name);
+    return sha256;
+  } catch (const reconstruct::SampleError& error) {
+    throw CalibrationError(std::string("the calibration was not stored: ") + error.what());
+  }
+}
+
+CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) {
+  const fs::path path = record_path(folder, kind);
+  std::ifstream file(path);
+  if (!file) {
+    throw CalibrationError("there is no " + std::string(to_string(kind)) + " field in " +
+                           folder.string() + again(kind));
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  CalibrationFrame frame;
+  int width = 0;
+  int height = 0;
+  std::string name;
+  try {
+    const auto record = nlohmann::json::parse(text.str());
+    name = record.at("file").get<std::string>();
+    frame.sha256 = record.at("sha256").get<std::string>();
+    frame.taken_at = record.at("taken_at").get<std::string>();
+    width = record.at("width").get<int>();
+    height = record.at("height").get<int>();
+    frame.bits = record.at("bits").get<int>();
+    frame.frames = record.at("frames").get<int>();
+    frame.settings.exposure =
+        std::chrono::microseconds(record.at("exposure_us").get<std::int64_t>());
+    frame.settings.gain = record.at("gain").get<double>();
+    frame.settings.red_gain = record.at("red_gain").get<double>();
+    frame.settings.blue_gain = record.at("blue_gain").get<double>();
+  } catch (const nlohmann::json::exception&) {
+    throw CalibrationError(path.string() + " is not a calibration's record" + again(kind));
+  }
+  if (fs::path(name).has_parent_path()) {
+    throw CalibrationError(path.string() + " names a file in another folder" + again(kind));
+  }
+  try {
+    if (reconstruct::sha256_of_file(folder / name) != frame.sha256) {
+      throw CalibrationError((folder / name).string() + " is not what was recorded" + again(kind));
+    }
+    frame.mean = reconstruct::read_tiff_image(folder / name);
+  } catch (const reconstruct::SampleError& error) {
+    throw CalibrationError(error.what() + again(kind));
+  }
+  if (frame.mean.cols != width || frame.mean.rows != height || frame.mean.type() != CV_16UC3) {
+    throw CalibrationError(path.string() + " and its image do not agree" + again(kind));
+  }
+  return frame;
+}
+
+}  // namespace biotomy::acquisition

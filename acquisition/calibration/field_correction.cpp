@@ -1,0 +1,109 @@
+#include "acquisition/calibration/field_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr int kGainBits = 14;
+constexpr double kUnity = 1 << kGainBits;
+constexpr double kMostGain = 65535.0;
+constexpr double kLevel = 256.0;  ///< of 8 bits, in the dark field
+constexpr double kSixteenBitsALevel = 257.0;
+
+// The loops below are of 16-bit operations alone, which a compiler makes vectors of.
+
+std::uint16_t less(std::uint16_t value, std::uint16_t dark) {
+  return value > dark ? static_cast<std::uint16_t>(value - dark) : std::uint16_t{0};
+}
+
+std::uint16_t upper_half(std::uint16_t a, std::uint16_t b) {
+  return static_cast<std::uint16_t>((static_cast<std::uint32_t>(a) * b) >> 16U);
+}
+
+template <bool kDark>
+void correct_row(std::uint8_t* values, const std::uint16_t* gain, const std::uint16_t* dark,
+                 int count) {
+  for (int i = 0; i < count; ++i) {
+    auto light = static_cast<std::uint16_t>(values[i] << 8U);
+    if constexpr (kDark) light = less(light, dark[i]);
+    const std::uint16_t level = upper_half(light, gain[i]);  // in 64ths
+    const auto rounded = static_cast<std::uint16_t>((level >> 6U) + ((level >> 5U) & 1U));
+    const std::uint16_t kept = std::min<std::uint16_t>(rounded, 255);
+    values[i] = values[i] == 255 ? std::uint8_t{255} : static_cast<std::uint8_t>(kept);
+  }
+}
+
+template <bool kDark>
+void correct_row(std::uint16_t* values, const std::uint16_t* gain, const std::uint16_t* dark,
+                 int count) {
+  constexpr std::uint16_t kFull = 65535;
+  for (int i = 0; i < count; ++i) {
+    std::uint16_t light = values[i];
+    if constexpr (kDark) light = less(light, dark[i]);
+    const std::uint16_t upper = upper_half(light, gain[i]);
+    const auto lower = static_cast<std::uint16_t>(light * gain[i]);
+    const auto level = static_cast<std::uint16_t>((upper << 2U) | (lower >> 14U));
+    const auto rounded = static_cast<std::uint16_t>(level + ((lower >> 13U) & 1U));
+    const bool full = values[i] == kFull || upper >= (1U << kGainBits) || rounded < level;
+    values[i] = full ? kFull : rounded;
+  }
+}
+
+template <typename Sample>
+void correct(cv::Mat& image, const cv::Mat& gain, const cv::Mat& dark) {
+  cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
+    const int count = 3 * image.cols;
+    for (int y = rows.start; y < rows.end; ++y) {
+      auto* values = image.ptr<Sample>(y);
+      const auto* gains = gain.ptr<std::uint16_t>(y);
+      if (dark.empty()) {
+        correct_row<false>(values, gains, nullptr, count);
+      } else {
+        correct_row<true>(values, gains, dark.ptr<std::uint16_t>(y), count);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+FieldCorrection::FieldCorrection(const cv::Mat& flat, const cv::Mat& dark, int type)
+    : type_(type), size_(flat.empty() ? dark.size() : flat.size()) {
+  gain_ = cv::Mat(size_, CV_16UC3, cv::Scalar::all(kUnity));
+  if (!flat.empty()) {
+    cv::Mat light;
+    flat.convertTo(light, CV_32F);
+    if (!dark.empty()) cv::subtract(light, dark, light, cv::noArray(), CV_32F);
+    const cv::Scalar mean = cv::mean(light);
+    for (int y = 0; y < size_.height; ++y) {
+      const auto* got = light.ptr<float>(y);
+      auto* gain = gain_.ptr<std::uint16_t>(y);
+      for (int i = 0; i < 3 * size_.width; ++i) {
+        const double whole = mean[i % 3];
+        const double part = std::max(static_cast<double>(got[i]), kLeastLight * whole);
+        gain[i] = static_cast<std::uint16_t>(
+            part > 0.0 ? std::min(std::round(kUnity * whole / part), kMostGain) : kUnity);
+      }
+    }
+  }
+  if (!dark.empty()) {
+    dark.convertTo(dark_, CV_16U, type == CV_8UC3 ? kLevel / kSixteenBitsALevel : 1.0);
+  }
+}
+
+void FieldCorrection::apply(cv::Mat& image) const {
+  CV_Assert(image.size() == size_ && image.type() == type_);
+  if (type_ == CV_16UC3) {
+    correct<std::uint16_t>(image, gain_, dark_);
+  } else {
+    correct<std::uint8_t>(image, gain_, dark_);
+  }
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,83 @@
+#include "acquisition/calibration/calibration_record.hpp"
+
+#include <gmock/gmock.h>
+#include <opencv2/core.hpp>
+
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+CalibrationFrame frame_of(double level) {
+  CalibrationFrame frame;
+  frame.mean = cv::Mat(30, 40, CV_16UC3, cv::Scalar(level, level + 1, level + 2));
+  frame.bits = 8;
+  frame.frames = 16;
+  frame.settings = {std::chrono::microseconds(12000), 2.0, 1.5, 1.25};
+  frame.taken_at = "2026-01-02T03:04:05.678Z";
+  return frame;
+}
+
+class CalibrationRecord : public testing::Test {
+ protected:
+  std::size_t files() const { return reconstruct::names_in(calibrations_).size(); }
+
+  TemporaryFolder folder_;
+  std::filesystem::path calibrations_ = folder_ / "deep" / "calibration";
+};
+
+TEST_F(CalibrationRecord, IsReadAsItWasWritten) {
+  const std::string hash = write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
+  const CalibrationFrame read = read_calibration_frame(calibrations_, FieldKind::flat);
+  EXPECT_EQ(cv::norm(read.mean, frame_of(500).mean, cv::NORM_INF), 0.0);
+  EXPECT_EQ(read.settings, frame_of(500).settings);
+  EXPECT_EQ(read.bits, 8);
+  EXPECT_EQ(read.frames, 16);
+  EXPECT_EQ(read.taken_at, "2026-01-02T03:04:05.678Z");
+  EXPECT_EQ(read.sha256, hash);
+}
+
+TEST_F(CalibrationRecord, TakesThePlaceOfTheFormerOneAndOfNoOther) {
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
+  write_calibration_frame(calibrations_, FieldKind::dark, frame_of(5));
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(700));
+  EXPECT_EQ(files(), 4U);
+  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat).mean.at<cv::Vec3w>(0, 0)[0],
+            700);
+  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::dark).mean.at<cv::Vec3w>(0, 0)[0], 5);
+  // The same once more is the same file.
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(700));
+  EXPECT_EQ(files(), 4U);
+}
+
+TEST_F(CalibrationRecord, ThatIsMissingOrDamagedIsRefusedWithWhatToDo) {
+  const auto read = [&] { read_calibration_frame(calibrations_, FieldKind::flat); };
+  EXPECT_THAT(read, ThrowsMessage<CalibrationError>(HasSubstr("biotomy calibrate flat")));
+  const std::string hash = write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
+  const auto image = calibrations_ / ("flat-" + hash.substr(0, 12) + ".tif");
+  reconstruct::flip_byte(image, 50);
+  EXPECT_THAT(read, ThrowsMessage<CalibrationError>(HasSubstr("is not what was recorded")));
+  std::filesystem::remove(image);
+  EXPECT_THROW(read(), CalibrationError);
+  reconstruct::write_text(calibrations_ / "flat.json", "{\"kind\": \"flat\"}");
+  EXPECT_THAT(read, ThrowsMessage<CalibrationError>(HasSubstr("is not a calibration's record")));
+}
+
+TEST_F(CalibrationRecord, ThatCannotBeStoredLeavesTheFormerOneInForce) {
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
+  // Where the record would be written there is a folder: neither can take its place.
+  std::filesystem::remove(calibrations_ / "dark.json");
+  std::filesystem::create_directories(calibrations_ / "dark.json" / "x");
+  EXPECT_THROW(write_calibration_frame(calibrations_, FieldKind::dark, frame_of(5)),
+               CalibrationError);
+  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat).mean.at<cv::Vec3w>(0, 0)[0],
+            500);
+}
+
+}  // namespace
+}  // namespace biotomy::tests

@@ -1,0 +1,68 @@
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "tools/command.hpp"
+#include "tools/daemon_connection.hpp"
+
+namespace biotomy::tools {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{100};
+
+struct Options {
+  DaemonOptions daemon;
+  std::string reason;
+};
+
+/// Asks for a calibration and waits for its end: what was found is printed, what hindered it
+/// thrown.
+void calibrate(const Options& options, const std::string& kind) {
+  DaemonConnection daemon(options.daemon);
+  daemon.command("calibrate-" + kind, options.reason);
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  while (true) {
+    const nlohmann::json calibration = daemon.status().value("calibration", nlohmann::json());
+    if (!calibration.is_object() || calibration.value("kind", "") != kind) {
+      throw std::runtime_error(
+          "the daemon knows nothing of the calibration any more: was it "
+          "started anew, or does somebody else calibrate?");
+    }
+    const std::string progress = calibration.value("progress", "");
+    const std::string sentence = calibration.value("sentence", "");
+    if (terminal) std::cerr << "\r\033[K";
+    if (progress == "done") {
+      std::cout << sentence << '\n';
+      return;
+    }
+    if (progress == "failed") throw std::runtime_error(sentence);
+    if (terminal) std::cerr << sentence << std::flush;
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* calibrate_command = app.add_subcommand(
+      "calibrate", "Records a calibration of a rig at rest, through its daemon.");
+  calibrate_command->require_subcommand(1);
+  for (const auto& [kind, description] :
+       {std::pair{"flat", "with the lamp on, of an even, pale surface: how the light is spread"},
+        std::pair{"dark", "with the lamp off: what the sensor shows without light"},
+        std::pair{"white", "with the lamp on, of a grey card: the gains that make it neutral"}}) {
+    CLI::App* command = calibrate_command->add_subcommand(kind, description);
+    add_daemon_options(*command, options->daemon);
+    command->add_option("--reason", options->reason, "a few words for the journal");
+    command->callback([options, kind = std::string(kind)] { calibrate(*options, kind); });
+  }
+}
+
+}  // namespace biotomy::tools
