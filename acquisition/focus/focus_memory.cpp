@@ -1,6 +1,7 @@
 #include "acquisition/focus/focus_memory.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace biotomy::acquisition {
 namespace {
@@ -8,15 +9,25 @@ namespace {
 /// The part of a deviation that counts as drift: the rest is taken for chance.
 constexpr double kLearnt = 0.5;
 
+/// The focus is where it was expected when it is off by less than this part of the depth of field.
+constexpr double kAsExpected = 1.0 / 16.0;
+
+constexpr int kFirstWait = 5;  // layers: the drift is not known yet
+
 }  // namespace
 
 FocusMemory::FocusMemory(const FocusSettings& settings, bridge::Micrometres layer_thickness)
-    : settings_(settings), layer_thickness_(layer_thickness) {}
+    : settings_(settings),
+      layer_thickness_(layer_thickness),
+      wait_(std::min(kFirstWait, settings.every_layers)) {}
 
 void FocusMemory::remember(const FocusedLayer& focused) {
   if (last_ && focused.layer > last_->layer) {
     const auto layers = static_cast<double>(focused.layer - last_->layer);
     const bridge::Micrometres deviation = focused.position - predicted(focused.layer);
+    const bool is_expected =
+        std::abs(deviation.value) <= kAsExpected * settings_.depth_of_field.value;
+    wait_ = std::clamp(is_expected ? 2 * wait_ : wait_ / 2, 1, settings_.every_layers);
     // What lies beyond the limit of change is a new beginning, not a drift.
     const bridge::Micrometres most = settings_.largest_change;
     const bridge::Micrometres a_layer = (kLearnt / layers) * deviation;
@@ -35,7 +46,7 @@ void FocusMemory::accepted(double sharpness_ratio) {
 const char* FocusMemory::why_search(std::int64_t layer) const {
   if (!last_) return "no focus is known yet";
   if (fell_) return "the sharpness fell";
-  if (layer - last_->layer >= settings_.every_layers) return "the last search is long ago";
+  if (layer - last_->layer >= wait_) return "the last search is long ago";
   return nullptr;
 }
 

@@ -24,7 +24,8 @@ struct FocusedLayer {
 
 /// What was learnt of the focus, carried from layer to layer. The face moves away by the layer's
 /// thickness with each layer, and the focus follows by as much, and by what the searches found it
-/// to drift beside.
+/// to drift beside. While a search finds the focus where it was expected, the next one comes twice
+/// as many layers later, up to `every_layers`; where it does not, twice as early.
 class FocusMemory {
  public:
   FocusMemory(const FocusSettings& settings, bridge::Micrometres layer_thickness);
@@ -58,6 +59,7 @@ class FocusMemory {
   bridge::Micrometres layer_thickness_;
   std::optional<FocusedLayer> last_;
   bridge::Micrometres drift_{};  ///< a layer
+  int wait_;                     ///< layers until the next search
   bool fell_ = false;
 };
 

@@ -62,8 +62,8 @@ FocusSettings read_focus(const CheckedTable& table, Micrometres pixel) {
   focus.backlash = length(table, "backlash_um", focus.backlash,
                           "positions of a search are approached from below by so much", 0.0);
   focus.every_layers = count(table, "every_layers", focus.every_layers, 1, 1000000,
-                             "a search at the latest after so many layers; between, the focus "
-                             "follows the face");
+                             "a search at the latest after so many layers, sooner while the focus "
+                             "is not where it was expected; between, it follows the face");
   focus.search_below_ratio =
       number(table, "search_below_ratio", focus.search_below_ratio, "", 0.0, 10.0,
              "a search also when an accepted frame's sharpness fell below this part of the last "

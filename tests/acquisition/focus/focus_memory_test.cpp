@@ -32,8 +32,27 @@ TEST(FocusMemory, FollowsTheFaceByTheThicknessOfEachLayer) {
   memory.remember(focused(3, 640.0));
   EXPECT_EQ(memory.predicted(3).value, 640.0);
   EXPECT_EQ(memory.predicted(7).value, 720.0);
-  EXPECT_EQ(memory.why_search(12), nullptr);
-  EXPECT_NE(memory.why_search(13), nullptr);
+}
+
+/// Layers from a search at `layer` to the next.
+int wait_of(const FocusMemory& memory, std::int64_t layer) {
+  int wait = 1;
+  while (memory.why_search(layer + wait) == nullptr) ++wait;
+  return wait;
+}
+
+TEST(FocusMemory, SearchesTheMoreSeldomTheBetterItKnowsWhereTheFocusIs) {
+  FocusMemory memory(settings(), {20.0});
+  memory.remember(focused(0, 640.0));
+  EXPECT_EQ(wait_of(memory, 0), 5);
+  memory.remember(focused(5, 740.5));
+  EXPECT_EQ(wait_of(memory, 5), 10);
+  memory.remember(focused(15, memory.predicted(15).value));
+  EXPECT_EQ(wait_of(memory, 15), 10) << "every_layers is the most";
+  memory.remember(focused(25, memory.predicted(25).value + 12.0));
+  EXPECT_EQ(wait_of(memory, 25), 5);
+  memory.remember(focused(30, memory.predicted(30).value - 12.0));
+  EXPECT_EQ(wait_of(memory, 30), 2);
 }
 
 TEST(FocusMemory, FollowsADriftThatTheSearchesFound) {
