@@ -15,7 +15,7 @@ namespace biotomy::acquisition {
 struct FocusedLayer {
   std::int64_t layer = 0;
   bridge::Micrometres position{};
-  double sharpness = 0.0;  ///< see sharpness()
+  double sharpness = 0.0;  ///< see sharpness_comparison.hpp
   /// Of the frame at the found position; null after a restart.
   std::shared_ptr<const FrameMeasures> measures;
   /// Of the bracket that suits its curve; zero after a restart.
@@ -45,8 +45,6 @@ class FocusMemory {
   /// How a search for `layer` begins. `anywhere`: what was remembered is in doubt.
   SearchPlan plan(std::int64_t layer, bool anywhere) const;
 
-  /// The sharpness at the last peak; 0 when there was no search yet.
-  double peak_sharpness() const { return last_ ? last_->sharpness : 0.0; }
   /// The last frame at a peak, with its layer; null when there was none in this run.
   std::shared_ptr<const FrameMeasures> peak_measures() const {
     return last_ ? last_->measures : nullptr;

@@ -7,7 +7,7 @@
 
 #include "acquisition/job/capture.hpp"
 #include "acquisition/log.hpp"
-#include "acquisition/quality/sharpness.hpp"
+#include "acquisition/quality/sharpness_comparison.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -104,17 +104,17 @@ bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
 
 void FocusStep::take_frame() {
   phase_ = Phase::measure;
-  measured_ = run_on(worker_, [this_camera = &camera_,
-                               time_out = settings_.camera.capture_time_out] {
-    const cv::Mat image = capture(*this_camera, time_out).image;
-    return Measured{std::make_shared<const FrameMeasures>(measure_frame(image)), sharpness(image)};
-  });
+  measured_ =
+      run_on(worker_, [this_camera = &camera_, time_out = settings_.camera.capture_time_out] {
+        return std::make_shared<const FrameMeasures>(
+            measure_frame(capture(*this_camera, time_out).image));
+      });
 }
 
 void FocusStep::take_measures(TimePoint now) {
-  Measured measured = measured_.get();
-  row_.points.push_back({search_->next()->position, measured.sharpness});
-  search_->measured(std::move(measured.measures));
+  std::shared_ptr<const FrameMeasures> measures = measured_.get();
+  row_.points.push_back({search_->next()->position, sharpness(*measures)});
+  search_->measured(std::move(measures));
   ask_next(now);
 }
 

@@ -42,12 +42,6 @@ class FocusStep {
   const std::optional<FocusReport>& last_search() const { return last_search_; }
 
  private:
-  /// What the worker makes of a frame.
-  struct Measured {
-    std::shared_ptr<const FrameMeasures> measures;
-    double sharpness = 0.0;
-  };
-
   void move_to(bridge::Micrometres target, TimePoint now);
   void approach(bridge::Micrometres target, TimePoint now);
   void ask_next(TimePoint now);
@@ -71,7 +65,7 @@ class FocusStep {
   Phase phase_ = Phase::move_to_focus;
   bridge::Micrometres focus_{};
   std::optional<bridge::Micrometres> stands_at_;
-  std::future<Measured> measured_;
+  std::future<std::shared_ptr<const FrameMeasures>> measured_;
   std::optional<FocusReport> last_search_;
 };
 

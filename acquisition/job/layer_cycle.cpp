@@ -146,6 +146,9 @@ void LayerCycle::begin_capture(const bridge::StageStatus& status) {
 }
 
 void LayerCycle::begin_assessment() {
+  if (const auto peak = focus_memory_.peak_measures()) {
+    expectation_.sharpness.found_focus(focus_memory_.peak_layer(), peak);
+  }
   expectation_.layer = layer_;
   expectation_.asked_at = in_hand_->asked_at;
   assessment_ = parts_.keeper.ask([frame = in_hand_, expectation = expectation_,

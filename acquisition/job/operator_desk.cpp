@@ -35,11 +35,11 @@ const char* to_string(OperatorCommand command) {
 }
 
 std::optional<OperatorCommand> operator_command(std::string_view name) {
-  constexpr std::array kPersonal = {OperatorCommand::start, OperatorCommand::pause,
-                                    OperatorCommand::resume, OperatorCommand::abort,
-                                    OperatorCommand::acknowledge, OperatorCommand::calibrate_flat,
-                                    OperatorCommand::calibrate_dark,
-                                    OperatorCommand::calibrate_white};
+  constexpr std::array kPersonal = {
+      OperatorCommand::start,          OperatorCommand::pause,
+      OperatorCommand::resume,         OperatorCommand::abort,
+      OperatorCommand::acknowledge,    OperatorCommand::calibrate_flat,
+      OperatorCommand::calibrate_dark, OperatorCommand::calibrate_white};
   for (const OperatorCommand command : kPersonal) {
     if (name == to_string(command)) return command;
   }

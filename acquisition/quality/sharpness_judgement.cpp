@@ -9,12 +9,20 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr double kBenefitOfDoubt = 1.0;  ///< standard errors
-constexpr double kSmeared = 0.95;        ///< one axis' ratio over the other's, below: it moved
+/// Standard errors by which a limit is lowered, of both axes together and of one.
+constexpr double kDoubt = 0.5;
+constexpr double kDoubtOfAxis = 1.0;
+
+/// And what a face's content changes by chance, for all tiles alike; of a frame of one megapixel,
+/// on the twin's layers.
+constexpr double kContent = 0.007;
+
+constexpr double kSmeared = 0.95;  ///< one axis' ratio over the other's, below: it moved
 constexpr const char* kBlurred = "blurred";
 
-double lowered(double limit, double error) {
-  return limit * std::exp(-kBenefitOfDoubt * error);
+double lowered(double limit, double error, const FrameMeasures& frame) {
+  const double megapixels = 1e-6 * static_cast<double>(frame.grid.frame.area());
+  return limit * std::exp(-error - kContent / std::sqrt(megapixels));
 }
 
 void judge_both_axes(const SharpnessComparison& found, const std::string& to,
@@ -23,8 +31,9 @@ void judge_both_axes(const SharpnessComparison& found, const std::string& to,
                              std::to_string(found.below) + " of " + std::to_string(found.tiles) +
                              " tiles";
   judgement.at_least("sharpness_ratio", found.ratio.value,
-                     lowered(thresholds.minimum_sharpness_ratio, found.ratio.error), kBlurred,
-                     reason.c_str());
+                     lowered(thresholds.minimum_sharpness_ratio, kDoubt * found.ratio.error,
+                             *judgement.result().measures),
+                     kBlurred, reason.c_str());
 }
 
 void judge_weaker_axis(const SharpnessComparison& found, const std::string& to, bool smeared,
@@ -35,7 +44,8 @@ void judge_weaker_axis(const SharpnessComparison& found, const std::string& to, 
                              " the sharpness is %.3f of " + to + ", below %.3f" +
                              (smeared ? ": something vibrated or moved" : "");
   judgement.at_least("sharpness_along_axis", weaker.value,
-                     lowered(thresholds.minimum_sharpness_along_axis, weaker.error),
+                     lowered(thresholds.minimum_sharpness_along_axis, kDoubtOfAxis * weaker.error,
+                             *judgement.result().measures),
                      smeared ? "smeared" : kBlurred, reason.c_str());
 }
 
@@ -69,7 +79,8 @@ void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
     if (to_record) {
       judgement.at_least(
           "sharpness_to_record", to_record->ratio.value,
-          lowered(thresholds.minimum_sharpness_to_record, to_record->ratio.error), kBlurred,
+          lowered(thresholds.minimum_sharpness_to_record, kDoubt * to_record->ratio.error, frame),
+          kBlurred,
           "the sharpness is %.3f of the last layers', below %.3f, although the focus "
           "was searched: look at lens, column and face");
     }

@@ -19,8 +19,8 @@ namespace biotomy::acquisition {
 /// (`sharpness_to_record`), with a wide limit: a search that ended on a wrong peak finds its own
 /// frames sharp.
 ///
-/// Limits are lowered by a standard error of the ratio: a small frame, or one with little
-/// detail, has the benefit of the doubt.
+/// Limits are lowered by what the ratio may be wrong by: a small frame, or one with little detail,
+/// has the benefit of the doubt.
 void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
                      const QualityThresholds& thresholds, Judgement& judgement);
 

@@ -111,7 +111,6 @@ TEST(FocusMemory, KeepsWhatWasMeasuredAtThePeakAndOfWhichLayer) {
   memory.remember(found);
   EXPECT_EQ(memory.peak_measures(), found.measures);
   EXPECT_EQ(memory.peak_layer(), 3);
-  EXPECT_EQ(memory.peak_sharpness(), 0.5);
 }
 
 }  // namespace
