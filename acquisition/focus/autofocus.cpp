@@ -155,7 +155,7 @@ void Autofocus::confirm(const Candidate& candidate) {
 
 void Autofocus::end_confirmation(std::shared_ptr<const FrameMeasures> frame) {
   const BracketVerdict& verdict = candidate_->verdict;
-  const std::optional<DetailLevel> level = detail_level(*frame);
+  const std::optional<DetailLevel> level = detail_level(*frame, verdict.tiles);
   const double least = verdict.most - kConfirmedShare -
                        kConfirmed * std::hypot(verdict.uncertainty, level ? level->error : 0.0);
   if (level && level->logarithm >= least) {

@@ -55,15 +55,27 @@ std::vector<Detail> detail_of_tiles(const FrameMeasures& measures) {
   return tiles;
 }
 
-Detail sum(const std::vector<Detail>& tiles) {
-  Detail all;
-  double variance = 0.0;
-  for (const Detail& tile : tiles) {
-    all.energy += tile.energy;
-    variance += tile.error * tile.error;
+std::vector<std::size_t> telling_tiles(std::span<const std::vector<Detail>> frames) {
+  constexpr double kLeastDetail = 5.0;  // standard deviations, where the tile is sharpest
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 0; number < frames.front().size(); ++number) {
+    const auto shows_detail = [&](const std::vector<Detail>& tiles) {
+      return tiles[number].energy > kLeastDetail * tiles[number].error;
+    };
+    if (std::ranges::any_of(frames, shows_detail)) numbers.push_back(number);
   }
-  all.error = std::sqrt(variance);
-  return all;
+  return numbers;
+}
+
+Detail sum(const std::vector<Detail>& tiles, std::span<const std::size_t> numbers) {
+  Detail total;
+  double variance = 0.0;
+  for (const std::size_t number : numbers) {
+    total.energy += tiles[number].energy;
+    variance += tiles[number].error * tiles[number].error;
+  }
+  total.error = std::sqrt(variance);
+  return total;
 }
 
 }  // namespace biotomy::acquisition

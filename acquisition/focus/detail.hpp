@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "acquisition/quality/frame_measures.hpp"
@@ -18,7 +20,11 @@ struct Detail {
 /// docs/quality.md for the comparison.
 std::vector<Detail> detail_of_tiles(const FrameMeasures& measures);
 
-/// Of all of them together.
-Detail sum(const std::vector<Detail>& tiles);
+/// The numbers of those tiles that show detail in at least one of the frames: what the others would
+/// add to a sum is noise.
+std::vector<std::size_t> telling_tiles(std::span<const std::vector<Detail>> frames);
+
+/// Of these tiles together.
+Detail sum(const std::vector<Detail>& tiles, std::span<const std::size_t> numbers);
 
 }  // namespace biotomy::acquisition

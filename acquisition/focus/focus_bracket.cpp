@@ -20,6 +20,7 @@ constexpr double kLeastDrop = 5.0;       // standard deviations
 
 struct Curve {
   std::vector<MeasuredPoint> points;
+  std::vector<std::size_t> tiles;
   std::size_t highest = 0;
   double drop = 0.0;      ///< from the highest to the lowest
   double noise = 0.0;     ///< of a point near the top
@@ -27,9 +28,13 @@ struct Curve {
 };
 
 Curve curve_of(std::span<const BracketFrame> bracket) {
+  std::vector<std::vector<Detail>> frames;
+  for (const BracketFrame& frame : bracket) frames.push_back(detail_of_tiles(*frame.measures));
+  Curve curve;
+  curve.tiles = telling_tiles(frames);
   std::vector<Detail> along;
-  for (const BracketFrame& frame : bracket) along.push_back(sum(detail_of_tiles(*frame.measures)));
-  Curve curve{.points = focus_curve(along)};
+  for (const std::vector<Detail>& tiles : frames) along.push_back(sum(tiles, curve.tiles));
+  curve.points = focus_curve(along);
   if (curve.points.empty()) return curve;
   const auto [lowest, highest] = std::ranges::minmax_element(curve.points, {}, &MeasuredPoint::y);
   curve.highest = static_cast<std::size_t>(highest - curve.points.begin());
@@ -66,6 +71,7 @@ BracketVerdict judge_bracket(std::span<const BracketFrame> bracket) {
   BracketVerdict verdict;
   verdict.position = bracket[curve.highest].position;
   verdict.most = curve.points[curve.highest].y;
+  verdict.tiles = curve.tiles;
   verdict.drop = curve.drop;
   verdict.uncertainty = curve.noise;
   if (curve.drop < kLeastDrop * curve.noise) return verdict;
@@ -103,8 +109,9 @@ BracketVerdict judge_bracket(std::span<const BracketFrame> bracket) {
   return verdict;
 }
 
-std::optional<DetailLevel> detail_level(const FrameMeasures& measures) {
-  const Detail all = sum(detail_of_tiles(measures));
+std::optional<DetailLevel> detail_level(const FrameMeasures& measures,
+                                        std::span<const std::size_t> tiles) {
+  const Detail all = sum(detail_of_tiles(measures), tiles);
   if (all.energy <= all.error) return std::nullopt;
   return DetailLevel{std::log(all.energy), all.error / all.energy};
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "acquisition/focus/focus_map.hpp"
 
@@ -21,6 +22,7 @@ struct BracketVerdict {
   double drop = 0.0;               ///< of the logarithm, from the greatest to the least
   double curvature = 0.0;          ///< of a peak, per squared step of the bracket
   double uncertainty = 0.0;        ///< of a logarithm: by noise, and by what the parabola leaves
+  std::vector<std::size_t> tiles;  ///< that tell; the logarithms are of their detail
   std::optional<FocusMap> map;     ///< of a peak, where enough tiles show detail
 };
 
@@ -33,12 +35,13 @@ struct BracketVerdict {
 /// the whole.
 BracketVerdict judge_bracket(std::span<const BracketFrame> bracket);
 
-/// The logarithm of all detail of a frame, with its standard deviation by noise; nothing where
-/// there is no more than noise.
+/// The logarithm of the detail of a frame's `tiles`, with its standard deviation by noise; nothing
+/// where there is no more than noise.
 struct DetailLevel {
   double logarithm = 0.0;
   double error = 0.0;
 };
-std::optional<DetailLevel> detail_level(const FrameMeasures& measures);
+std::optional<DetailLevel> detail_level(const FrameMeasures& measures,
+                                        std::span<const std::size_t> tiles);
 
 }  // namespace biotomy::acquisition

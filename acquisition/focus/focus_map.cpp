@@ -13,11 +13,10 @@ namespace biotomy::acquisition {
 namespace {
 
 constexpr std::size_t kLeastTiles = 6;
-constexpr double kLeastDetail = 10.0;  ///< of a tile where it is sharpest, in standard deviations
-constexpr double kFarthest = 2.0;      ///< a tile's peak beyond the bracket, in steps, is none
-constexpr double kLeastError = 0.05;   ///< in steps: what a parabola leaves in spite of no noise
-constexpr double kUsualTilt = 4.0;     ///< in steps: where the tiles tell nothing, it is none
-constexpr double kBiweight = 4.685;    ///< standard deviations beyond which a tile has no say
+constexpr double kFarthest = 2.0;     ///< a tile's peak beyond the bracket, in steps, is none
+constexpr double kLeastError = 0.05;  ///< in steps: what a parabola leaves in spite of no noise
+constexpr double kUsualTilt = 4.0;    ///< in steps: where the tiles tell nothing, it is none
+constexpr double kBiweight = 4.685;   ///< standard deviations beyond which a tile has no say
 constexpr int kRounds = 20;
 
 /// All in steps of the bracket; x and y are parts of the frame, from its middle.
@@ -41,16 +40,14 @@ std::vector<TilePeak> peaks_of(std::span<const BracketFrame> bracket) {
   for (const BracketFrame& frame : bracket) details.push_back(detail_of_tiles(*frame.measures));
   const TileGrid& grid = bracket.front().measures->grid;
   std::vector<TilePeak> peaks;
-  for (int number = 0; number < grid.count(); ++number) {
+  for (const std::size_t number : telling_tiles(details)) {
     std::vector<Detail> along;
-    for (const auto& frame : details) along.push_back(frame[static_cast<std::size_t>(number)]);
-    const auto most = std::ranges::max_element(along, {}, &Detail::energy);
-    if (most->energy < kLeastDetail * most->error) continue;
+    for (const auto& frame : details) along.push_back(frame[number]);
     const std::optional<ParabolaFit> fit = fit_parabola(focus_curve(along));
     if (!fit) continue;
     const double last = static_cast<double>(bracket.size()) - 1.0;
     if (fit->vertex < -kFarthest || fit->vertex > last + kFarthest) continue;
-    const cv::Rect tile = grid.tile(number);
+    const cv::Rect tile = grid.tile(static_cast<int>(number));
     peaks.push_back({(tile.x + 0.5 * tile.width) / grid.frame.width - 0.5,
                      (tile.y + 0.5 * tile.height) / grid.frame.height - 0.5, fit->vertex,
                      std::hypot(fit->vertex_error, kLeastError)});

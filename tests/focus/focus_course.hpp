@@ -21,6 +21,7 @@ struct FocusCourse {
   double wander_um = 0.5;       ///< its standard deviation from one layer to the next
   double swing_um = 60.0;       ///< and how far the day's warmth moves it, up and down …
   double swing_layers = 200.0;  ///< … within so many layers
+  double knock_um = 0.0;        ///< by which something moves the column half-way through
   double gain = 1.0;            ///< of the camera, with so much less light: its noise
   bool lens = false;            ///< focused by a lens in place of the column
 };
@@ -35,6 +36,7 @@ struct FocusOutcome {
   int searches = 0;
   int found = 0;
   int focus_frames = 0;           ///< that the searches took
+  int taken_again = 0;            ///< frames that were blurred, so that the focus was searched anew
   int most_frames = 0;            ///< in one search
   double farthest_um = 0.0;       ///< that a search went from where the face was
   std::vector<double> misses_um;  ///< of each layer's frame: face − focal plane

@@ -21,6 +21,7 @@ struct Row {
   int searches = 0;
   int found = 0;
   int frames = 0;
+  int taken_again = 0;
   int most_frames = 0;
   double farthest_um = 0.0;
   double worst_um = 0.0;
@@ -37,22 +38,24 @@ struct Row {
     searches += outcome.searches;
     found += outcome.found;
     frames += outcome.focus_frames;
+    taken_again += outcome.taken_again;
     most_frames = std::max(most_frames, outcome.most_frames);
     farthest_um = std::max(farthest_um, outcome.farthest_um);
   }
 
   void print(const std::string& name) const {
-    std::printf("| %s | %d | %.2f %% | %.1f | %.1f | %d of %d | %.2f | %d | %.0f |\n", name.c_str(),
-                layers, 100.0 * within / layers, std::sqrt(squares / layers), worst_um, found,
-                searches, static_cast<double>(frames) / layers, most_frames, farthest_um);
+    std::printf("| %s | %d | %.2f %% | %.1f | %.1f | %d of %d | %.2f | %d | %d | %.0f |\n",
+                name.c_str(), layers, 100.0 * within / layers, std::sqrt(squares / layers),
+                worst_um, found, searches, static_cast<double>(frames) / layers, taken_again,
+                most_frames, farthest_um);
   }
 };
 
 int report(int layers) {
   std::printf(
       "| course | layers | within %.1f µm | RMS, µm | worst, µm | searches found | "
-      "frames a layer | most in a search | farthest, µm |\n"
-      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+      "frames a layer | taken again | most in a search | farthest, µm |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
       0.25 * course_depth_of_field_um());
   Row all;
   for (FocusCourse course : focus_courses()) {

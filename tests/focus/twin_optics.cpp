@@ -61,7 +61,8 @@ void TwinOptics::begin_layer(int layer) {
   block_.blow(400.0);
   wandered_um_ +=
       course_.wander_um * normal(course_.seed ^ kDriftStream, static_cast<std::uint64_t>(layer));
-  drift_um_ = course_.drift_um * layer + wandered_um_ +
+  const double knocked_um = 2 * layer > course_.layers ? course_.knock_um : 0.0;
+  drift_um_ = knocked_um + course_.drift_um * layer + wandered_um_ +
               course_.swing_um * std::sin(2.0 * std::numbers::pi * layer / course_.swing_layers);
 }
 
