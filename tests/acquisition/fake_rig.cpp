@@ -145,14 +145,21 @@ void FakeLines::set(bridge::OutputRole role, bool value) {
 
 bridge::CameraDescription FakeCamera::describe() {
   if (gone) throw DeviceError(DeviceError::Kind::disconnected, "camera: gone");
-  return {.model = "fake", .width = width, .height = height};
+  return {.model = "fake", .width = width, .height = height, .lens = lens};
+}
+
+void FakeCamera::apply(const bridge::CameraSettings& settings) {
+  if (!settings.lens_position) return;
+  if (!lens) throw DeviceError(DeviceError::Kind::refused, "camera: no lens");
+  lens_positions.push_back(*settings.lens_position);
 }
 
 bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
   if (gone) throw DeviceError(DeviceError::Kind::disconnected, "camera: gone");
   ++captures;
-  const double defocus =
-      std::abs(stage.status.ground_to.value - column_to_face_um - stage.status.column.value);
+  const double plane =
+      lens_positions.empty() ? stage.status.column.value : 1e6 / lens_positions.back();
+  const double defocus = std::abs(stage.status.ground_to.value - column_to_face_um - plane);
   bridge::Frame frame;
   frame.image = ground_face(width, height, 0.5 + defocus / 20.0,
                             stuck_face_um.value_or(stage.status.ground_to.value));

@@ -88,10 +88,12 @@ struct FakeCamera : bridge::Camera {
   bool frozen = false;                  ///< gives its last picture again, with a new number
   int old_frames = 0;                   ///< so many of the next frames were exposed long ago
   int captures = 0;
+  std::optional<bridge::LensRange> lens;  ///< it can drive; then the lens focuses, not the column
+  std::vector<double> lens_positions;     ///< where it was driven, dioptres
 
   explicit FakeCamera(FakeStage& rig_stage) : stage(rig_stage) {}
   bridge::CameraDescription describe() override;
-  void apply(const bridge::CameraSettings&) override {}
+  void apply(const bridge::CameraSettings& settings) override;
   bridge::Frame capture(std::chrono::milliseconds time_out) override;
 
  private:

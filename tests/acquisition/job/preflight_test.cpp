@@ -42,6 +42,19 @@ TEST(Preflight, RefusesALastFocusBeyondTheColumn) {
   expect_refusal(bench, "the focus of the last layer would be at 670 µm of the column");
 }
 
+TEST(Preflight, RefusesToFocusWithALensThatIsNotThere) {
+  JobBench bench;
+  bench.settings.focus.actuator = FocusSettings::Actuator::lens;
+  expect_refusal(bench, "focus.actuator is \"lens\" and the camera \"fake\" has none");
+}
+
+TEST(Preflight, RefusesALastFocusBeyondTheLens) {
+  JobBench bench;
+  bench.settings.focus.actuator = FocusSettings::Actuator::lens;
+  bench.camera.lens = bridge::LensRange{.farthest = 1600.0, .nearest = 10000.0};
+  expect_refusal(bench, "the focus of the last layer would be at 670 µm of the lens");
+}
+
 TEST(Preflight, RefusesADiskWithoutRoomForTheWholeJob) {
   JobBench bench;
   bench.settings.plan.layers = 1000;

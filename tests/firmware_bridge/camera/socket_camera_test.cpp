@@ -72,6 +72,13 @@ TEST(SocketCamera, GivesTheFrameRowByRowWithItsFacts) {
   EXPECT_EQ(frame.gain, 2.0);
 }
 
+TEST(SocketCamera, RefusesToDriveALensAndHasNone) {
+  FakeRig rig(FakeCamera{});
+  SocketCamera camera(rig.path(), 5s);
+  EXPECT_FALSE(camera.describe().lens);
+  EXPECT_EQ(kind_of_failure([&] { camera.apply({.lens_position = 4.0}); }), Kind::refused);
+}
+
 TEST(SocketCamera, GivesSixteenBitFrames) {
   FakeCamera fake;
   fake.frame.format = RigPixelFormat::rgb161616;

@@ -1,0 +1,84 @@
+#include "acquisition/job/focus_step.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/job/job.hpp"
+#include "acquisition/job/lens_actuator.hpp"
+#include "acquisition/service/status_json.hpp"
+#include "tests/acquisition/job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::HasSubstr;
+
+TEST(FocusStep, FocusesWithTheLensAndLeavesTheColumnAlone) {
+  JobBench bench;
+  bench.settings.focus.actuator = FocusSettings::Actuator::lens;
+  bench.camera.lens = bridge::LensRange{.farthest = 1.0, .nearest = 10000.0};
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done, 5000)) << bench.alarm();
+  EXPECT_EQ(bench.stage.count(bridge::StageAction::move_column), 0);
+  ASSERT_FALSE(bench.camera.lens_positions.empty());
+  // The last face is ground to 1080 µm, and sharp 400 µm before.
+  EXPECT_NEAR(distance_of(bench.camera.lens_positions.back()).value, 680.0, 4.0);
+}
+
+TEST(FocusStep, TellsOfItsLastSearchInTheStatus) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done, 5000)) << bench.alarm();
+  const auto status = bench.board.look();
+  ASSERT_TRUE(status->focus);
+  EXPECT_TRUE(status->focus->found);
+  EXPECT_EQ(status->focus->layer, 1);
+  EXPECT_EQ(bench.count_rows("focus_sweeps", "json_array_length(points) = " +
+                                                 std::to_string(status->focus->frames)),
+            1);
+  EXPECT_NEAR(status->focus->plane.value, 600.0, 4.0);
+  EXPECT_THAT(status_json(*status), HasSubstr("\"actuator\":\"column\""));
+}
+
+TEST(FocusStep, ComesToEveryFrameFromBelow) {
+  JobBench bench;
+  std::vector<double> column;
+  bench.stage.on_command = [&](const bridge::StageCommand& command) {
+    if (command.action == bridge::StageAction::move_column) {
+      column.push_back(command.position.value);
+    }
+  };
+  int seen = 0;
+  bench.stage.on_exchange = [&] {
+    if (bench.camera.captures == seen || column.size() < 2) return;
+    seen = bench.camera.captures;
+    EXPECT_GT(column.back(), column[column.size() - 2]) << "frame " << seen;
+  };
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done, 5000)) << bench.alarm();
+  EXPECT_GT(seen, 10);
+}
+
+TEST(FocusStep, StopsAJobWhoseFirstSearchFindsNothing) {
+  JobBench bench;
+  bench.camera.column_to_face_um = -90000.0;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::faulted, 5000));
+  EXPECT_THAT(bench.alarm(), HasSubstr("no focus was found around 590.0 µm of the column"));
+  EXPECT_LE(bench.camera.captures, 1 + 9 * 6) << "a search is bounded";
+}
+
+TEST(LensActuator, TakesDioptresForTheReciprocalOfTheDistance) {
+  EXPECT_NEAR(dioptres_at({100000.0}), 10.0, 1e-12);
+  EXPECT_NEAR(distance_of(4.0).value, 250000.0, 1e-9);
+  const bridge::AxisLimits limits = lens_limits({.farthest = 0.0, .nearest = 10.0});
+  EXPECT_NEAR(limits.minimum.value, 1e5, 1e-6);
+  EXPECT_NEAR(limits.maximum.value, 1e7, 1e-3) << "infinity is ten metres away";
+}
+
+}  // namespace
+}  // namespace biotomy::tests
