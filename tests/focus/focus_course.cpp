@@ -8,7 +8,8 @@
 #include "acquisition/job/column_actuator.hpp"
 #include "acquisition/job/focus_step.hpp"
 #include "acquisition/job/lens_actuator.hpp"
-#include "acquisition/quality/sharpness.hpp"
+#include "acquisition/quality/judgement.hpp"
+#include "acquisition/quality/sharpness_judgement.hpp"
 #include "acquisition/records/sample_records.hpp"
 #include "tests/focus/twin_optics.hpp"
 #include "tests/temporary_folder.hpp"
@@ -59,18 +60,19 @@ class Bench {
   /// Focuses on a layer and takes its frame, as the job does; once more when it is blurred.
   void do_layer(int layer, FocusOutcome& outcome) {
     optics_.begin_layer(layer);
-    double ratio = focus(layer, {memory_.why_search(layer), false}, outcome);
-    if (ratio < settings_.thresholds.minimum_sharpness_ratio) {
+    Assessment frame = focus(layer, {memory_.why_search(layer), false}, outcome);
+    if (frame.verdict != Verdict::accepted) {
       ++outcome.taken_again;
       outcome.misses_um.pop_back();
-      ratio = focus(layer, {"the quality ladder asked for it", true}, outcome);
+      frame = focus(layer, {"the quality ladder asked for it", true}, outcome);
     }
-    memory_.accepted(ratio);
+    record_.accept(frame.measures);
+    if (frame.sharpness_to_peak) memory_.accepted(*frame.sharpness_to_peak);
   }
 
  private:
-  /// Gives the sharpness of the frame, as a part of the last peak's.
-  double focus(int layer, SearchReason reason, FocusOutcome& outcome) {
+  /// Gives what the daemon thinks of the frame's sharpness.
+  Assessment focus(int layer, SearchReason reason, FocusOutcome& outcome) {
     const int before = optics_.photographs;
     const TimePoint now{};
     step_.begin(layer, reason, now);
@@ -86,7 +88,12 @@ class Bench {
 
     const sim::Photograph photograph = optics_.photograph();
     outcome.misses_um.push_back(photograph.defocus_um);
-    return sharpness(photograph.image) / memory_.peak_sharpness();
+    record_.found_focus(memory_.peak_layer(), memory_.peak_measures());
+    Judgement judgement;
+    judgement.result().measures =
+        std::make_shared<const FrameMeasures>(measure_frame(photograph.image));
+    judge_sharpness(record_, layer, settings_.thresholds, judgement);
+    return judgement.finish();
   }
 
   std::unique_ptr<FocusActuator> actuator() {
@@ -108,6 +115,7 @@ class Bench {
   StageCommands commands_;
   FocusMemory memory_;
   FocusStep step_;
+  SharpnessRecord record_;
 };
 
 }  // namespace
