@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 
 namespace biotomy::acquisition {
 namespace {
@@ -102,15 +105,18 @@ cv::Mat casting_cells(const cv::Mat& thumbnail, const CastingColour& casting) {
   const cv::Vec2f middle = chroma(level);
   const auto tolerance = static_cast<float>(casting.tolerance);
   cv::Mat mask(thumbnail.size(), CV_8UC1);
-  for (int y = 0; y < thumbnail.rows; ++y) {
-    const auto* row = thumbnail.ptr<cv::Vec3f>(y);
-    for (int x = 0; x < thumbnail.cols; ++x) {
-      const float all = sum(row[x]);
-      const bool alike = distance(chroma(row[x]), middle) <= tolerance &&
-                         all >= 0.5F * sum(level) && all <= 2.0F * sum(level);
-      mask.at<std::uint8_t>(y, x) = alike ? 255 : 0;
+  cv::parallel_for_({0, thumbnail.rows}, [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      const auto* row = thumbnail.ptr<cv::Vec3f>(y);
+      auto* out = mask.ptr<std::uint8_t>(y);
+      for (int x = 0; x < thumbnail.cols; ++x) {
+        const float all = sum(row[x]);
+        const bool alike = distance(chroma(row[x]), middle) <= tolerance &&
+                           all >= 0.5F * sum(level) && all <= 2.0F * sum(level);
+        out[x] = alike ? 255 : 0;
+      }
     }
-  }
+  });
   return mask;
 }
 

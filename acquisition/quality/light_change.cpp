@@ -63,17 +63,23 @@ std::vector<Place> places_of(const cv::Mat& now, const cv::Mat& before, const cv
   return places;
 }
 
-/// Of the casting material's cells where there are enough, else of all.
-double median_residual(const std::vector<Place>& places) {
+/// The median of a number that each place has: of the casting material's where there are enough,
+/// else of all.
+template <typename Number>
+double median_of(const std::vector<Place>& places, const Number& number) {
   const auto casting = static_cast<std::size_t>(std::ranges::count_if(places, &Place::casting));
-  std::vector<double> residuals;
-  residuals.reserve(places.size());
+  std::vector<double> values;
+  values.reserve(places.size());
   for (const Place& place : places) {
-    if (casting < kEnoughCasting || place.casting) residuals.push_back(place.residual);
+    if (casting < kEnoughCasting || place.casting) values.push_back(number(place));
   }
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+double median_residual(const std::vector<Place>& places) {
+  return median_of(places, [](const Place& place) { return place.residual; });
 }
 
 void find_residuals(const LightChange& change, std::vector<Place>& places) {
@@ -100,13 +106,9 @@ void weigh(double scale, std::vector<Place>& places) {
 /// The medians alone: where the search begins.
 LightChange level_of(const std::vector<Place>& places) {
   LightChange change;
-  std::vector<double> ratios(places.size());
   for (std::size_t c = 0; c < kColours; ++c) {
-    std::ranges::transform(places, ratios.begin(),
-                           [c](const Place& place) { return place.ratio[c]; });
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    change.colours[c].coefficients[0] = *middle;
+    change.colours[c].coefficients[0] =
+        median_of(places, [c](const Place& place) { return place.ratio[c]; });
   }
   return change;
 }

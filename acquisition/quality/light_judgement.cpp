@@ -13,9 +13,16 @@ namespace {
 /// A limit that lies within so many standard deviations of no change at all can't be judged by.
 constexpr double kCertain = 3.0;
 
-cv::Mat casting_of(const SurfacePrint& surface, const SurfaceRecord& surfaces) {
-  if (!surfaces.casting()) return cv::Mat::zeros(surface.light.size(), CV_8UC1);
-  return casting_cells(surface.light, *surfaces.casting());
+/// Where both surfaces show casting material, so that a specimen which appears all at once is not
+/// taken for it; where the earlier one does if hardly any cell is left, as after a strong cast.
+cv::Mat casting_of(const SurfacePrint& before, const SurfacePrint& now,
+                   const SurfaceRecord& surfaces) {
+  if (!surfaces.casting()) return cv::Mat::zeros(before.light.size(), CV_8UC1);
+  const cv::Mat earlier = casting_cells(before.light, *surfaces.casting());
+  const cv::Mat both = earlier & casting_cells(now.light, *surfaces.casting());
+  constexpr double kLeast = 0.05;  // of the frame
+  const bool enough = cv::countNonZero(both) >= kLeast * static_cast<double>(both.total());
+  return enough ? both : earlier;
 }
 
 void judge_against_last(const SurfaceRecord& surfaces, const QualityThresholds& thresholds,
@@ -79,7 +86,7 @@ FrameLight find_light(const SurfacePrint& surface, const SurfaceRecord& surfaces
     light.casting = learn_casting(now);
     return light;
   }
-  const cv::Mat casting = casting_of(*before, surfaces);
+  const cv::Mat casting = casting_of(*before, surface, surfaces);
   light.measured = measure_light(now, before->light, casting);
   light.since_first = surfaces.last_light() + light.measured.change;
   light.casting = surfaces.casting()

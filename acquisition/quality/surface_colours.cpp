@@ -58,9 +58,14 @@ KnownColours::KnownColours(const std::vector<std::shared_ptr<const SurfaceColour
   constexpr std::size_t kWords = SurfaceColours::kWords;
   constexpr std::size_t kRed = SurfaceColours::kSteps;  // words from one step of R to the next
   SurfaceColours all = known_;
-  for (const auto& face : faces) {
-    std::ranges::transform(all.sets_, face->sets_, all.sets_.begin(), std::bit_or{});
-  }
+  const std::size_t row_of_sets = kWords * static_cast<std::size_t>(known_.columns_);
+  cv::parallel_for_({0, known_.rows_}, [&](const cv::Range& rows) {
+    const std::size_t begin = row_of_sets * static_cast<std::size_t>(rows.start);
+    const std::size_t end = row_of_sets * static_cast<std::size_t>(rows.end);
+    for (const auto& face : faces) {
+      for (std::size_t k = begin; k < end; ++k) all.sets_[k] |= face->sets_[k];
+    }
+  });
   cv::parallel_for_({0, known_.rows_}, [&](const cv::Range& rows) {
     std::vector<std::uint32_t> nearby(kWords);
     std::vector<std::uint32_t> wider(kWords);

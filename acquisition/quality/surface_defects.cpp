@@ -59,19 +59,21 @@ cv::Mat outside_of_nearby(const cv::Mat& now, const cv::Mat& before) {
   cv::dilate(before, most, square);
   cv::erode(before, least, square);
   cv::Mat outside(now.size(), CV_8UC1);
-  for (int y = 0; y < now.rows; ++y) {
-    const auto* cell = now.ptr<cv::Vec3b>(y);
-    const auto* upper = most.ptr<cv::Vec3b>(y);
-    const auto* lower = least.ptr<cv::Vec3b>(y);
-    auto* out = outside.ptr<std::uint8_t>(y);
-    for (int x = 0; x < now.cols; ++x) {
-      int beyond = 0;
-      for (int c = 0; c < 3; ++c) {
-        beyond = std::max({beyond, cell[x][c] - upper[x][c], lower[x][c] - cell[x][c]});
+  cv::parallel_for_({0, now.rows}, [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      const auto* cell = now.ptr<cv::Vec3b>(y);
+      const auto* upper = most.ptr<cv::Vec3b>(y);
+      const auto* lower = least.ptr<cv::Vec3b>(y);
+      auto* out = outside.ptr<std::uint8_t>(y);
+      for (int x = 0; x < now.cols; ++x) {
+        int beyond = 0;
+        for (int c = 0; c < 3; ++c) {
+          beyond = std::max({beyond, cell[x][c] - upper[x][c], lower[x][c] - cell[x][c]});
+        }
+        out[x] = beyond > kOutside ? 255 : 0;
       }
-      out[x] = beyond > kOutside ? 255 : 0;
     }
-  }
+  });
   return outside;
 }
 
@@ -130,10 +132,7 @@ cv::Mat veiled(const cv::Mat& now, const cv::Mat& before) {
 /// 255 where there is casting material, over the thumbnail.
 cv::Mat casting_in(const SurfacePrint& surface, const SurfaceRecord& record) {
   if (!record.casting()) return cv::Mat::zeros(surface.thumbnail.size(), CV_8UC1);
-  cv::Mat casting;
-  cv::resize(casting_cells(surface.light, *record.casting()), casting, surface.thumbnail.size(),
-             0.0, 0.0, cv::INTER_NEAREST);
-  return casting;
+  return casting_cells(surface.thumbnail, *record.casting());
 }
 
 template <typename Sample>

@@ -1,10 +1,11 @@
-// What the judgement of a frame costs beside the measures of brightness and sharpness, with Google
-// Benchmark: to find repeated rows, to take the print of a face, to compare two prints. The frame
-// has 20 megapixels of noisy texture; items are its pixels.
+// What the parts of the judgement of a frame cost, with Google Benchmark: to measure its tiles, to
+// find repeated rows, to take the print of a face and of its surface, to compare two of either. The
+// frame has 20 megapixels of noisy texture; items are its pixels.
 //
 //   quality_bench [--benchmark_filter=compare] …
 
 #include <cstdint>
+#include <memory>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/core.hpp>
@@ -15,6 +16,9 @@
 #include "acquisition/quality/face_print.hpp"
 #include "acquisition/quality/frame_measures.hpp"
 #include "acquisition/quality/frame_rows.hpp"
+#include "acquisition/quality/light_judgement.hpp"
+#include "acquisition/quality/surface_defects.hpp"
+#include "acquisition/quality/thumbnail.hpp"
 
 namespace {
 
@@ -89,6 +93,64 @@ void compare(benchmark::State& state, std::uint64_t depth) {
   count_pixels(state);
 }
 
+void thumbnail(benchmark::State& state, int type) {
+  const cv::Mat image = frame(1, 2, type);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(take_thumbnail(image));
+  }
+  count_pixels(state);
+}
+
+/// With its thumbnail.
+void surface_print(benchmark::State& state, int type) {
+  const cv::Mat image = frame(1, 2, type);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(take_surface_print(image));
+  }
+  count_pixels(state);
+}
+
+/// Frames of eight layers before, and one to be compared with them.
+struct Surfaces {
+  cv::Mat image;
+  SurfacePrint now;
+  SurfaceRecord record;
+
+  explicit Surfaces(std::uint64_t depth) : image(frame(depth, 3, CV_8UC3)) {
+    now = take_surface_print(image);
+    const auto before =
+        std::make_shared<const SurfacePrint>(take_surface_print(frame(1, 2, CV_8UC3)));
+    for (std::size_t i = 0; i < SurfaceRecord::kRemembered; ++i) {
+      record.accept(1, before, FrameLight{.casting = learn_casting(before->light)});
+    }
+  }
+};
+
+void light(benchmark::State& state, std::uint64_t depth) {
+  const Surfaces surfaces(depth);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(find_light(surfaces.now, surfaces.record));
+  }
+  count_pixels(state);
+}
+
+void shift(benchmark::State& state, std::uint64_t depth) {
+  const Surfaces surfaces(depth);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(measure_shift(surfaces.now.border, surfaces.record.surface()->border));
+  }
+  count_pixels(state);
+}
+
+void surface_defects(benchmark::State& state, std::uint64_t depth) {
+  const Surfaces surfaces(depth);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        find_surface_defects(surfaces.image, surfaces.now, surfaces.record, {}));
+  }
+  count_pixels(state);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -103,6 +165,16 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("print/16", take_print, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("compare/same", compare, 1)->UseRealTime();
   benchmark::RegisterBenchmark("compare/other", compare, 9)->UseRealTime();
+  benchmark::RegisterBenchmark("thumbnail/8", thumbnail, CV_8UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("thumbnail/16", thumbnail, CV_16UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("surface_print/8", surface_print, CV_8UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("surface_print/16", surface_print, CV_16UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("light/same", light, 1)->UseRealTime();
+  benchmark::RegisterBenchmark("light/other", light, 9)->UseRealTime();
+  benchmark::RegisterBenchmark("shift/same", shift, 1)->UseRealTime();
+  benchmark::RegisterBenchmark("shift/other", shift, 9)->UseRealTime();
+  benchmark::RegisterBenchmark("surface_defects/same", surface_defects, 1)->UseRealTime();
+  benchmark::RegisterBenchmark("surface_defects/other", surface_defects, 9)->UseRealTime();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;

@@ -1,0 +1,108 @@
+#include "acquisition/quality/surface_judgement.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/acquisition/quality/surface_watch.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::HasSubstr;
+
+const cv::Scalar kChip(206, 214, 206);  // as the twin's: frosted casting material
+
+/// Discs of 6 pixels strewn over an image: each 0.04 % of it.
+cv::Mat strewn(cv::Mat image, int count, const cv::Scalar& colour) {
+  cv::RNG places(9);
+  for (int i = 0; i < count; ++i) {
+    cv::circle(image, {places.uniform(0, image.cols), places.uniform(0, image.rows)}, 6, colour,
+               cv::FILLED);
+  }
+  return image;
+}
+
+cv::Mat veiled(cv::Mat image, const cv::Rect& part, double opacity) {
+  cv::Mat under = image(part);
+  under = under * (1.0 - opacity) + cv::Scalar(228, 236, 240) * opacity;
+  return image;
+}
+
+TEST(SurfaceJudgement, SeesDebris) {
+  SurfaceWatch watch;
+  watch.accept_layers(3);
+  const Assessment dirty = watch.judge(strewn(watch.next_face(), 20, kChip));
+  EXPECT_EQ(dirty.slug, "debris");
+  EXPECT_THAT(dirty.reason, HasSubstr("nowhere near, more than 0.00"));
+  EXPECT_GT(value_of(dirty, "debris"), 0.004);
+  EXPECT_LT(value_of(dirty, "debris"), 0.03);
+}
+
+TEST(SurfaceJudgement, SeesDebrisOfADarkColourToo) {
+  SurfaceWatch watch;
+  watch.accept_layers(3);
+  EXPECT_EQ(watch.judge(strewn(watch.next_face(), 20, cv::Scalar(10, 10, 60))).slug, "debris");
+}
+
+TEST(SurfaceJudgement, SeesGlare) {
+  SurfaceWatch watch;
+  watch.accept_layers(3);
+  const Assessment glaring = watch.judge(strewn(watch.next_face(), 5, cv::Scalar::all(255)));
+  EXPECT_EQ(glaring.slug, "glare");
+  EXPECT_THAT(glaring.reason, HasSubstr("reflects the lamp"));
+}
+
+TEST(SurfaceJudgement, SeesFrost) {
+  SurfaceWatch watch;
+  watch.accept_layers(3);
+  const Assessment frosted = watch.judge(veiled(watch.next_face(), {0, 0, 512, 160}, 0.25));
+  EXPECT_EQ(frosted.slug, "frost");
+  EXPECT_GT(value_of(frosted, "frost"), 0.1);
+  const Assessment hardly = watch.judge(veiled(watch.next_face(), {0, 0, 512, 160}, 0.02));
+  EXPECT_EQ(hardly.verdict, Verdict::accepted) << hardly.reason;
+}
+
+TEST(SurfaceJudgement, SeesABlockThatMoved) {
+  SurfaceWatch watch;
+  watch.accept_layers(2);
+  const Assessment moved = watch.judge(watch.camera.photograph(60.0, -5.0, 2.0));
+  EXPECT_EQ(moved.slug, "shifted");
+  EXPECT_THAT(moved.reason, HasSubstr("beside where it lay in layer 2, more than 3.00"));
+  EXPECT_NEAR(value_of(moved, "shift_x"), 5.0, 0.4);
+  EXPECT_NEAR(value_of(moved, "shift_y"), -2.0, 0.4);
+  EXPECT_EQ(watch.judge(watch.camera.photograph(60.0, 0.5, 0.5)).verdict, Verdict::accepted);
+}
+
+TEST(SurfaceJudgement, JudgesNothingWithoutALayerBefore) {
+  SurfaceWatch watch;
+  const Assessment first = watch.judge(strewn(watch.next_face(), 20, kChip));
+  EXPECT_EQ(first.verdict, Verdict::accepted);
+  EXPECT_FALSE(is_judged(first, "debris"));
+}
+
+TEST(SurfaceJudgement, AcceptsASpecimenThatAppearsAllAtOnceAndGoesAgain) {
+  SurfaceWatch watch;
+  const cv::Mat casting = watch.camera.photograph(0.0)(cv::Rect(0, 0, 40, 512)).clone();
+  const auto empty = [&](std::uint64_t exposure) {
+    cv::Mat image;
+    cv::repeat(casting, 1, 13, image);
+    image = image(cv::Rect(0, 0, 512, 512)).clone();
+    cv::Mat noise(image.size(), CV_8UC3);
+    cv::RNG(exposure).fill(noise, cv::RNG::UNIFORM, 0, 3);
+    image += noise;
+    return image;
+  };
+  watch.accept(empty(1));
+  watch.accept(empty(2));
+  const Assessment entering = watch.accept(watch.next_face());
+  EXPECT_EQ(entering.verdict, Verdict::accepted) << entering.reason;
+  watch.accept_layers(3);
+  const Assessment leaving = watch.accept(empty(3));
+  EXPECT_EQ(leaving.verdict, Verdict::accepted) << leaving.reason;
+}
+
+}  // namespace
+}  // namespace biotomy::tests
