@@ -37,7 +37,7 @@ TEST(SurfaceJudgement, SeesDebris) {
   const Assessment dirty = watch.judge(strewn(watch.next_face(), 20, kChip));
   EXPECT_EQ(dirty.slug, "debris");
   EXPECT_THAT(dirty.reason, HasSubstr("nowhere near, more than 0.00"));
-  EXPECT_GT(value_of(dirty, "debris"), 0.004);
+  EXPECT_GT(value_of(dirty, "debris"), 0.003);  // discs of 0.9 % of the frame
   EXPECT_LT(value_of(dirty, "debris"), 0.03);
 }
 

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "acquisition/quality/face_judgement.hpp"
+#include "acquisition/quality/light_judgement.hpp"
 #include "acquisition/records/layer_journal.hpp"
 #include "tests/acquisition/fake_rig.hpp"
 #include "tests/temporary_folder.hpp"
@@ -70,6 +71,27 @@ TEST(RecalledFaces, OfLongAgoDoNotCount) {
   past.commit(1, 0.001);
   for (std::int64_t layer = 2; layer <= 20; ++layer) past.commit(layer, 0.2);
   EXPECT_DOUBLE_EQ(past.recall(20).faces.least_change().value(), 0.2);
+}
+
+TEST(RecalledFaces, HaveTheLastSurfaceAndTheFirstCastingMaterial) {
+  Past past;
+  for (std::int64_t layer = 1; layer <= 3; ++layer) {
+    AttemptRow attempt;
+    attempt.layer = layer;
+    attempt.attempt = 1;
+    attempt.assessment.verdict = Verdict::accepted;
+    for (const char* name : kCastingMetrics) {
+      if (layer > 1)
+        attempt.assessment.metrics.push_back({name, 0.1 * static_cast<double>(layer), 1.0, true});
+    }
+    past.journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
+  }
+  const SurfaceRecord surfaces = past.recall(3).surfaces;
+  EXPECT_EQ(surfaces.layer(), 3);
+  ASSERT_NE(surfaces.surface(), nullptr);
+  EXPECT_EQ(surfaces.surface()->thumbnail.size(), cv::Size(12, 8));
+  ASSERT_TRUE(surfaces.first_casting());
+  EXPECT_DOUBLE_EQ(surfaces.first_casting()->level[2], 0.2);
 }
 
 }  // namespace
