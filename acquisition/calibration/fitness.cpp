@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace biotomy::acquisition {
 namespace {
@@ -16,10 +16,9 @@ constexpr double kLeastBright = 0.05;  ///< below it, noise and rounding become 
 constexpr double kMostBright = 0.9;
 constexpr double kMostClipped = 1e-4;
 constexpr double kMostDark = 0.1;
-constexpr double kLeastEven = 0.25;    ///< the darkest part of the frame, of the mean
-constexpr double kMostPattern = 0.02;  ///< standard deviation within a block, of the block's mean
-constexpr int kMostBlocks = 24;        ///< across and down
-constexpr int kLeastBlock = 16;        ///< pixels; a smaller one may lie within a pattern
+constexpr double kLeastEven = 0.25;  ///< the darkest part of the frame, of the mean
+constexpr double kMostPattern = 0.02;
+constexpr int kMostBlocks = 24;  ///< across and down
 
 std::string sentence(const char* format, double value) {
   std::array<char, 300> text{};
@@ -57,33 +56,48 @@ std::optional<std::string> light_complaint(const cv::Mat& part, double clipped) 
 
 struct Evenness {
   double darkest = 1.0;  ///< block, of the frame's mean, in the worst colour
-  double pattern = 0.0;  ///< median over blocks and colours of the deviation within
+  double pattern = 0.0;  ///< root mean square of the brightness' fine structure, of its mean
 };
 
-Evenness evenness_of(const cv::Mat& mean) {
+double darkest_block(const cv::Mat& mean) {
+  cv::Mat blocks;
+  cv::resize(mean, blocks, {std::min(mean.cols, kMostBlocks), std::min(mean.rows, kMostBlocks)},
+             0.0, 0.0, cv::INTER_AREA);
   const cv::Scalar whole = cv::mean(mean);
-  Evenness evenness;
-  std::vector<double> patterns;
-  const int down = std::clamp(mean.rows / kLeastBlock, 1, kMostBlocks);
-  const int across = std::clamp(mean.cols / kLeastBlock, 1, kMostBlocks);
-  for (int row = 0; row < down; ++row) {
-    for (int column = 0; column < across; ++column) {
-      const cv::Range rows(row * mean.rows / down, (row + 1) * mean.rows / down);
-      const cv::Range columns(column * mean.cols / across, (column + 1) * mean.cols / across);
-      cv::Scalar level;
-      cv::Scalar deviation;
-      cv::meanStdDev(mean(rows, columns), level, deviation);
+  double darkest = 1.0;
+  for (int y = 0; y < blocks.rows; ++y) {
+    for (int x = 0; x < blocks.cols; ++x) {
       for (int c = 0; c < 3; ++c) {
-        evenness.darkest = std::min(evenness.darkest, level[c] / whole[c]);
-        if (level[c] > 0.0) patterns.push_back(deviation[c] / level[c]);
+        darkest = std::min(darkest, blocks.at<cv::Vec3w>(y, x)[c] / whole[c]);
       }
     }
   }
-  if (patterns.empty()) return evenness;
-  const auto middle = patterns.begin() + static_cast<std::ptrdiff_t>(patterns.size() / 2);
-  std::nth_element(patterns.begin(), middle, patterns.end());
-  evenness.pattern = *middle;
-  return evenness;
+  return darkest;
+}
+
+/// Of second differences over 2 pixels to either side: light that falls off evenly has none.
+double pattern_of(const cv::Mat& mean) {
+  constexpr int kReach = 2;
+  constexpr double kNoise = 6.0;  // the sum of the squared weights 1 -2 1
+  cv::Mat brightness;
+  cv::transform(mean, brightness, cv::Matx13f(0.25F, 0.5F, 0.25F));
+  brightness.convertTo(brightness, CV_32F);
+  if (brightness.cols <= 2 * kReach || brightness.rows <= 2 * kReach) return 0.0;
+  double squares = 0.0;
+  for (const bool along_x : {true, false}) {
+    const cv::Mat lines = along_x ? brightness.t() : brightness;
+    const int inner = lines.rows - 2 * kReach;
+    const cv::Mat differences = lines.rowRange(0, inner) -
+                                2.0 * lines.rowRange(kReach, kReach + inner) +
+                                lines.rowRange(2 * kReach, lines.rows);
+    squares = std::max(
+        squares, differences.dot(differences) / kNoise / static_cast<double>(differences.total()));
+  }
+  return std::sqrt(squares) / cv::mean(brightness)[0];
+}
+
+Evenness evenness_of(const cv::Mat& mean) {
+  return {darkest_block(mean), pattern_of(mean)};
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ void SimulatedRig::write_twin_configuration() const {
                  std::to_string(plan_.width) + "\nheight = " + std::to_string(plan_.height) +
                  "\npixel = " + std::to_string(plan_.pixel_um) + "\ncolumn_offset = " +
                  std::to_string(kColumnOffsetUm) + "\n" + plan_.twin_camera_settings +
-                 "[block]\nfirst_face = " + std::to_string(plan_.first_face_um) + "\n");
+                 "[block]\nfirst_face = " + std::to_string(plan_.first_face_um) + "\n" +
+                 plan_.twin_block_settings);
 }
 
 void SimulatedRig::write_daemon_configuration() const {

@@ -27,6 +27,7 @@ struct RigPlan {
   std::string listen = "tcp://127.0.0.1:0";  ///< of the twin's controller
   std::string twin_stage_settings = {};      ///< lines of sim.toml's [stage]
   std::string twin_camera_settings = {};     ///< lines of sim.toml's [camera]
+  std::string twin_block_settings = {};      ///< lines of sim.toml's [block]
   std::string daemon_stage_settings = {};    ///< lines of rig.toml's [stage]
   std::string daemon_camera_settings = {};   ///< lines of rig.toml's [camera]
   int settle_ms = 5;                         ///< real time, as the next two

@@ -93,7 +93,9 @@ TEST_F(JobCalibration, FindsTheGainsThatMakeACardNeutral) {
 }
 
 TEST_F(JobCalibration, OfFramesThatAreNotFitRecordsNothing) {
-  bench.plain_camera = nullptr;  // the rig's own camera sees squares, by whatever light
+  // The rig's own camera sees squares, by whatever light, once they are in focus.
+  bench.plain_camera = nullptr;
+  bench.camera.column_to_face_um = 0.0;
   bench.start_daemon();
   bench.say(OperatorCommand::acknowledge);
   calibrate(OperatorCommand::calibrate_flat);
