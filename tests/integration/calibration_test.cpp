@@ -18,13 +18,19 @@ namespace {
 using std::chrono::seconds;
 using testing::HasSubstr;
 
-/// A rig whose lens loses half the light in the corners. Before the first pass it sees the casting
-/// above the specimen, which is a blank surface.
+/// A rig whose lens loses half the light in the corners.
 RigPlan vignetted(const std::string& daemon_settings = "") {
   RigPlan plan;
   plan.layers = 2;
   plan.twin_camera_settings = "vignetting = 0.5\n";
   plan.daemon_settings = daemon_settings;
+  return plan;
+}
+
+/// The same with a blank surface in view: of a block so wide that there is nothing but casting.
+RigPlan vignetted_with_a_card() {
+  RigPlan plan = vignetted();
+  plan.twin_block_settings = "width = 100000\nheight = 100000\nspecks = 0\n";
   return plan;
 }
 
@@ -75,17 +81,20 @@ TEST(Calibration, ByItsFlatFieldALayerIsEven) {
   do_job(plain);
   EXPECT_LT(corners_to_middle(plain), 0.65);
 
-  SimulatedRig rig(vignetted("[calibration]\nflat = true\ndark = true\n"));
-  rig.start_daemon();
-  EXPECT_THAT(calibrate(rig, "flat").errors, HasSubstr("acknowledge it first"));
-  ASSERT_EQ(rig.rig("acknowledge").exit_code, 0);
+  SimulatedRig calibrated(vignetted_with_a_card());
+  calibrated.start_daemon();
+  EXPECT_THAT(calibrate(calibrated, "flat").errors, HasSubstr("acknowledge it first"));
+  ASSERT_EQ(calibrated.rig("acknowledge").exit_code, 0);
+  const std::filesystem::path folder = calibrated.folder() / "calibration";
   for (const char* kind : {"dark", "flat"}) {
-    const Outcome recorded = calibrate(rig, kind);
+    const Outcome recorded = calibrate(calibrated, kind);
     ASSERT_EQ(recorded.exit_code, 0) << recorded.errors;
     EXPECT_THAT(recorded.output, HasSubstr("of 16 frames"));
-    EXPECT_TRUE(
-        std::filesystem::exists(rig.folder() / "calibration" / (std::string(kind) + ".json")));
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string(kind) + ".json")));
   }
+  SimulatedRig rig(
+      vignetted("[calibration]\nflat = true\ndark = true\nfolder = \"" + folder.string() + "\"\n"));
+  rig.start_daemon();
   do_job(rig);
   EXPECT_NEAR(corners_to_middle(rig), 1.0, 0.03);
 }
@@ -101,7 +110,7 @@ TEST(Calibration, ThatIsConfiguredAndMissingStopsTheJobAtItsStart) {
 }
 
 TEST(Calibration, OfWhiteTellsTheGains) {
-  RigPlan plan = vignetted();
+  RigPlan plan = vignetted_with_a_card();
   plan.daemon_camera_settings = "red_gain = 1.25\n";
   SimulatedRig rig(plan);
   rig.start_daemon();
@@ -112,7 +121,7 @@ TEST(Calibration, OfWhiteTellsTheGains) {
   std::ifstream file(rig.folder() / "calibration" / "white.json");
   const auto record = nlohmann::json::parse(file);
   // What the casting lacks of grey, whatever gain it was seen with.
-  const sim::Colour casting = rig.phantom().colour_at(800.0, 600.0, -90.0);
+  const sim::Colour casting = rig.phantom().colour_at(800.0, 600.0, -100.0);
   EXPECT_NEAR(record.at("red_gain").get<double>(), casting.g / casting.r, 0.05);
   EXPECT_NEAR(record.at("blue_gain").get<double>(), casting.g / casting.b, 0.05);
 }
