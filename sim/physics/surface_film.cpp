@@ -73,8 +73,8 @@ void add_glare(cv::Mat& picture, const Glare& glare, std::uint64_t seed) {
     const double radius = std::min(std::max(1.5, kLargest * side * (0.3 + 0.7 * drawn(0))),
                                    std::sqrt(left / std::numbers::pi));
     left -= std::numbers::pi * radius * radius;
-    const double centre_x = picture.cols * drawn(1);
-    const double centre_y = picture.rows * drawn(2);
+    const double centre_x = static_cast<double>(drawn(1)) * picture.cols;
+    const double centre_y = static_cast<double>(drawn(2)) * picture.rows;
     const double reach = radius * (1.0 + 0.5 * kFlank);
     const cv::Rect around =
         cv::Rect(static_cast<int>(centre_x - reach), static_cast<int>(centre_y - reach),
