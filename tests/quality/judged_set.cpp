@@ -16,7 +16,7 @@ using acquisition::Assessment;
 
 struct TimedAssessment {
   Assessment assessment;
-  double seconds;
+  double seconds = 0.0;
 };
 
 TimedAssessment timed(const bridge::Frame& frame, const DaemonMemory& memory) {
@@ -78,6 +78,7 @@ std::vector<JudgedFrame> judge_set(const std::vector<SequenceSettings>& set, int
     }
   };
   std::vector<std::future<void>> workers;
+  workers.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) workers.push_back(std::async(std::launch::async, work));
   for (std::future<void>& worker : workers) worker.get();
 

@@ -20,7 +20,7 @@ double area_under_roc(const MetricValues& values) {
   const std::vector<double> good = sorted(values.good);
   double right = 0.0;
   for (const double bad : values.bad) {
-    const auto [first, last] = std::ranges::equal_range(good, bad);
+    const auto [first, last] = std::equal_range(good.begin(), good.end(), bad);
     const double below = static_cast<double>(first - good.begin());
     const double above = static_cast<double>(good.end() - last);
     right += (values.low_is_bad ? above : below) + 0.5 * static_cast<double>(last - first);
