@@ -19,7 +19,6 @@
 
 #include "acquisition/job/assessed_frame.hpp"
 #include "acquisition/job/surroundings.hpp"
-#include "acquisition/quality/sharpness.hpp"
 #include "acquisition/records/sample_records.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/store/durable_file.hpp"

@@ -25,8 +25,8 @@ TEST_P(FocusCourseTest, KeepsEveryLayerWithinAQuarterOfTheDepthOfField) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Courses, FocusCourseTest, testing::ValuesIn(focus_courses()),
-                         [](const auto& info) {
-                           return "Course" + std::to_string(info.index + 1);
+                         [](const auto& course) {
+                           return "Course" + std::to_string(course.index + 1);
                          });
 
 }  // namespace
