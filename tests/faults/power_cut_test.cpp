@@ -55,7 +55,7 @@ class PowerCut : public testing::Test {
     start();
     const Outcome watched = rig_->rig("watch", kLongestJob);
     ASSERT_EQ(watched.exit_code, 0) << watched.output << watched.errors;
-    rig_->kill_daemon();
+    ASSERT_EQ(rig_->end_daemon().exit_code, 0);  // at the end of its log
     cuts_ = std::make_unique<PowerCuts>(*rig_, RecordedDisk(log));
   }
 
@@ -206,6 +206,7 @@ TEST_F(PowerCut, LosesNoFolderThatAKilledDaemonHadMadeAndNotSynced) {
   run.rig().launch_daemon(recorded(run.rig(), log));
   run.rig().await_daemon();
   run.finish();
+  ASSERT_EQ(run.rig().end_daemon().exit_code, 0);  // at the end of its log
 
   const PowerCuts cuts(run.rig(), RecordedDisk(log));
   std::mt19937 random(42);
