@@ -67,7 +67,7 @@ HttpServer::HttpServer(const Api& api, const std::string& host, int port)
   httplib::Server& server = state_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_socket_options(set_socket_options);
-  // Without it a kept connection waits 40 ms for the last answer's receipt before the next goes out.
+  // Without it an answer on a kept connection waits 40 ms for the receipt of the one before.
   server.set_tcp_nodelay(true);
   server.set_payload_max_length(kLargestBody);
   server.set_read_timeout(kTimeOutSeconds);

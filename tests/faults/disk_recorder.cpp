@@ -60,9 +60,8 @@ class Recorder {
     const std::string log = setting("BIOTOMY_RECORD_LOG");
     if (folder_.empty() || log.empty()) return;
     log_ = static_cast<int>(::syscall(SYS_openat, AT_FDCWD, log.c_str(),
-                                      O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+                                      O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
     if (log_ < 0) std::abort();
-    cut_broken_record();
     add({.call = DiskCall::start}, {});
   }
 
@@ -95,21 +94,6 @@ class Recorder {
   }
 
  private:
-  /// A program that was killed may have left a part of its last record, after which the next ones
-  /// could not be read.
-  void cut_broken_record() const {
-    const off_t size = ::syscall(SYS_lseek, log_, 0, SEEK_END);
-    off_t whole = 0;
-    DiskRecord record;
-    while (::syscall(SYS_pread64, log_, &record, sizeof record, whole) == sizeof record) {
-      const auto length =
-          static_cast<off_t>(sizeof record + record.path_size + record.to_size + record.data_size);
-      if (whole + length > size) break;
-      whole += length;
-    }
-    if (::syscall(SYS_ftruncate, log_, whole) != 0) std::abort();
-  }
-
   std::string_view below(std::string_view path) const {
     return path.empty() ? path : path.substr(std::min(folder_.size() + 1, path.size()));
   }
@@ -316,4 +300,9 @@ int mkdir(const char* path, mode_t mode) {
                [&] { return real<int(const char*, mode_t)>("mkdir")(path, mode); });
 }
 
+/// For killing_point: from now on no recorded call begins, and none is between its making and its
+/// record.
+void hold_recorded_disk() {
+  recorder().order().lock();
+}
 }  // extern "C"
