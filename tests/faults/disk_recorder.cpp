@@ -300,4 +300,9 @@ int mkdir(const char* path, mode_t mode) {
                [&] { return real<int(const char*, mode_t)>("mkdir")(path, mode); });
 }
 
+/// For killing_point: from now on no recorded call begins, and none is between its making and its
+/// record.
+void hold_recorded_disk() {
+  recorder().order().lock();
+}
 }  // extern "C"

@@ -28,7 +28,8 @@ using std::chrono::seconds;
 using testing::IsEmpty;
 
 constexpr seconds kLongestJob(200);
-constexpr std::int64_t kKilledAfter = 3;  // layers; the daemon, not the power
+/// Where the daemon is killed, not the power cut: in the middle of the run.
+constexpr const char* kKilled = "before rename */layers/000004.tif";
 
 /// The recorded run, of which all tests look at copies.
 class PowerCut : public testing::Test {
@@ -40,22 +41,19 @@ class PowerCut : public testing::Test {
                 .layers = 7,
                 .daemon_settings = "[store]\nchunk = [32, 32, 2]\nshard = [64, 64, 2]\n"});
     const std::filesystem::path log = rig_->folder() / "disk.log";
-    const auto start = [&] {
-      rig_->launch_daemon(recorded(*rig_, log));
+    const auto start = [&](const std::vector<std::string>& environment) {
+      rig_->launch_daemon(environment);
       rig_->await_daemon();
       const Outcome started = rig_->rig("start");
       ASSERT_EQ(started.exit_code, 0) << started.errors;
     };
-    start();
-    const auto deadline = std::chrono::steady_clock::now() + kLongestJob;
-    while (rig_->status().at("committed") < kKilledAfter) {
-      ASSERT_LT(std::chrono::steady_clock::now(), deadline);
-    }
-    rig_->kill_daemon();  // what it had not synced is not lost by that, and may be later
-    start();
+    // What it had not synced is not lost by that, and may be later.
+    start(recorded_and_killed(*rig_, log, kKilled));
+    ASSERT_EQ(rig_->await_daemon_end(kLongestJob).exit_code, 128 + SIGKILL);
+    start(recorded(*rig_, log));
     const Outcome watched = rig_->rig("watch", kLongestJob);
     ASSERT_EQ(watched.exit_code, 0) << watched.output << watched.errors;
-    rig_->kill_daemon();
+    ASSERT_EQ(rig_->end_daemon().exit_code, 0);  // at the end of its log
     cuts_ = std::make_unique<PowerCuts>(*rig_, RecordedDisk(log));
   }
 
@@ -73,6 +71,16 @@ class PowerCut : public testing::Test {
                                            const std::filesystem::path& log) {
     return {"LD_PRELOAD=" BIOTOMY_DISK_RECORDER, "BIOTOMY_RECORD_FOLDER=" + rig.sample().string(),
             "BIOTOMY_RECORD_LOG=" + log.string()};
+  }
+
+  /// And in which it is killed at a point, between two calls.
+  static std::vector<std::string> recorded_and_killed(const SimulatedRig& rig,
+                                                      const std::filesystem::path& log,
+                                                      const std::string& point) {
+    std::vector<std::string> environment = recorded(rig, log);
+    environment.front() = "LD_PRELOAD=" BIOTOMY_KILLING_POINT " " BIOTOMY_DISK_RECORDER;
+    environment.push_back("BIOTOMY_KILLING_POINT=" + point);
+    return environment;
   }
 
   /// Cuts the power after each call.
@@ -195,10 +203,7 @@ TEST_F(PowerCut, LosesNothingThatWasCommittedAfterSyncsHadFailed) {
 TEST_F(PowerCut, LosesNoFolderThatAKilledDaemonHadMadeAndNotSynced) {
   KilledRun run(rig_->plan());
   const std::filesystem::path log = run.rig().folder() / "disk.log";
-  std::vector<std::string> environment = recorded(run.rig(), log);
-  environment.front() = "LD_PRELOAD=" BIOTOMY_KILLING_POINT " " BIOTOMY_DISK_RECORDER;
-  environment.emplace_back("BIOTOMY_KILLING_POINT=before sync */volume.ome.zarr");
-  run.rig().launch_daemon(environment);
+  run.rig().launch_daemon(recorded_and_killed(run.rig(), log, "before sync */volume.ome.zarr"));
   run.rig().await_daemon();
   const Outcome started = run.rig().rig("start");
   ASSERT_EQ(started.exit_code, 0) << started.errors;
@@ -206,6 +211,7 @@ TEST_F(PowerCut, LosesNoFolderThatAKilledDaemonHadMadeAndNotSynced) {
   run.rig().launch_daemon(recorded(run.rig(), log));
   run.rig().await_daemon();
   run.finish();
+  ASSERT_EQ(run.rig().end_daemon().exit_code, 0);  // at the end of its log
 
   const PowerCuts cuts(run.rig(), RecordedDisk(log));
   std::mt19937 random(42);

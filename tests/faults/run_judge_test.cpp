@@ -1,196 +1,33 @@
 #include "tests/faults/run_judge.hpp"
 
-#include <chrono>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
-#include "acquisition/records/layer_journal.hpp"
-#include "acquisition/records/utc_time.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
+#include "tests/faults/made_up_run.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
 namespace {
 
-using namespace acquisition;
-using nlohmann::json;
 using reconstruct::SampleFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr int kLayers = 4;
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-constexpr double kFirstFaceUm = 1000.0;
-constexpr double kThicknessUm = 20.0;
-
-double face_um(std::int64_t layer) {
-  return kFirstFaceUm + static_cast<double>(layer - 1) * kThicknessUm;
-}
-
-/// What a layer shows: coarse shapes of its own, and the noise of one photograph.
-cv::Mat photograph(std::int64_t layer, int noise) {
-  cv::RNG random(static_cast<std::uint64_t>(layer));
-  cv::Mat coarse(kHeight / 8, kWidth / 8, CV_8UC3);
-  random.fill(coarse, cv::RNG::UNIFORM, 90, 140);
-  cv::Mat image;
-  cv::resize(coarse, image, {kWidth, kHeight}, 0, 0, cv::INTER_CUBIC);
-  cv::RNG grain(static_cast<std::uint64_t>(noise));
-  cv::Mat speckle(image.size(), CV_16SC3);
-  grain.fill(speckle, cv::RNG::NORMAL, 0, 1.6);
-  cv::add(image, speckle, image, cv::noArray(), CV_8UC3);
-  return image;
-}
-
-SampleFolder new_sample(const std::filesystem::path& folder) {
-  reconstruct::SampleDescription description;
-  description.name = "made up";
-  description.cuboid = {.size = {kWidth, kHeight, kLayers}, .spacing = {10.0, 10.0, kThicknessUm}};
-  return SampleFolder::create(folder, description);
-}
-
-/// A run as daemon and twin would leave it, written down event by event, a second each.
-class MadeUpRun {
- public:
-  explicit MadeUpRun(const std::filesystem::path& folder)
-      : folder_(folder), sample_(new_sample(folder / "sample")), journal_(sample_.journal_path()) {
-    start_twin("none");
-  }
-
-  std::string now() {
-    return utc_text(std::chrono::system_clock::time_point(std::chrono::seconds(++second_)));
-  }
-
-  void witness(const char* event, json facts) {
-    facts["time"] = now();
-    facts["event"] = event;
-    std::ofstream(folder_ / "witness.jsonl", std::ios::app) << facts.dump() << '\n';
-  }
-
-  void start_twin(const char* result) {
-    frame_ = 0;
-    witness("twin_started", {{"sequence", sequence_}, {"result", result}});
-  }
-
-  void intend(std::int64_t layer) {
-    journal_.begin_grind({.sequence = ++sequence_, .layer = layer, .target = {face_um(layer)}},
-                         now());
-  }
-
-  void begin_pass(std::int64_t layer) {
-    witness("command_started",
-            {{"sequence", sequence_}, {"action", "grind_pass"}, {"position_um", face_um(layer)}});
-  }
-
-  void end_pass(const char* result) {
-    witness("command_finished",
-            {{"sequence", sequence_}, {"action", "grind_pass"}, {"result", result}});
-  }
-
-  void grind(std::int64_t layer) {
-    intend(layer);
-    begin_pass(layer);
-    end_pass("done");
-  }
-
-  void move_column() { witness("command_started", {{"sequence", 0}, {"action", "move_column"}}); }
-
-  void take_frame(std::int64_t layer, double column_um = 650.0, bool spoilt = false) {
-    witness("capture", {{"number", ++frame_},
-                        {"face_um", face_um(layer) + 0.4},
-                        {"column_um", column_um},
-                        {"face_in_view", true},
-                        {"lamp_on", lamp_on_},
-                        {"spoilt", spoilt}});
-  }
-
-  /// Of a picture that came under a number which is not that of the last capture.
-  void reject(std::int64_t layer, std::uint64_t frame) {
-    AttemptRow row;
-    row.layer = layer;
-    row.attempt = ++attempt_;
-    row.taken_at = now();
-    row.frame_sequence = frame;
-    row.assessment.verdict = Verdict::rejected;
-    journal_.record_attempt(row);
-  }
-
-  void commit(std::int64_t layer, std::int64_t shown) {
-    const auto path = sample_.layer_path(layer);
-    const auto stored = reconstruct::write_layer_image(
-        path, photograph(shown, ++noise_), {layer, sample_.description().cuboid.spacing}, {});
-    AttemptRow row;
-    row.layer = layer;
-    row.attempt = ++attempt_;
-    row.taken_at = now();
-    row.frame_sequence = static_cast<std::uint64_t>(frame_);
-    row.file = std::filesystem::relative(path, sample_.path());
-    row.sha256 = stored.sha256;
-    row.assessment.verdict = Verdict::accepted;
-    journal_.commit_layer(row, stored.bytes, now());
-  }
-  void commit(std::int64_t layer) { commit(layer, layer); }
-
-  void make(std::int64_t layer) {
-    grind(layer);
-    take_frame(layer);
-    commit(layer);
-  }
-  void make_from(std::int64_t layer) {
-    for (; layer <= kLayers; ++layer) make(layer);
-  }
-
-  void record_search(std::int64_t layer, const std::vector<double>& columns_um) {
-    FocusRow row;
-    row.layer = layer;
-    row.found = true;
-    for (const double column_um : columns_um) row.points.push_back({{column_um}, 0.1});
-    journal_.record_focus(row, now());
-  }
-
-  void note(const char* kind, const char* text, const char* state = "preflight") {
-    journal_.record_event({.kind = kind, .state = state, .layer = 1, .text = text, .at = now()});
-  }
-  void alarm(const char* state) { note("alarm", "made up", state); }
-
-  void kill(std::int64_t committed) { kills_.push_back({now(), committed}); }
-
-  void photograph_in_the_dark() { lamp_on_ = false; }
-
-  const SampleFolder& sample() const { return sample_; }
-
-  FinishedRun finished() const {
-    return {folder_ / "witness.jsonl", sample_.path(), kLayers, kFirstFaceUm, kThicknessUm, kills_};
-  }
-
- private:
-  std::filesystem::path folder_;
-  SampleFolder sample_;
-  LayerJournal journal_;
-  int second_ = 0;
-  std::uint32_t sequence_ = 0;
-  int frame_ = 0;
-  int noise_ = 0;
-  int attempt_ = 0;
-  bool lamp_on_ = true;
-  std::vector<Killed> kills_;
-};
+constexpr int kLayers = MadeUpRun::kLayers;
 
 class RunJudge : public testing::Test {
  protected:
   RunJudge() {
     for (std::int64_t layer = 1; layer <= kLayers; ++layer) {
       reconstruct::write_layer_image(undisturbed_.layer_path(layer),
-                                     photograph(layer, 1000 + static_cast<int>(layer)),
-                                     {layer, {10.0, 10.0, kThicknessUm}}, {});
+                                     MadeUpRun::photograph(layer, 1000 + static_cast<int>(layer)),
+                                     {layer, {10.0, 10.0, MadeUpRun::kThicknessUm}}, {});
     }
   }
 
@@ -200,7 +37,7 @@ class RunJudge : public testing::Test {
   MadeUpRun run{folder_.path()};
 
  private:
-  SampleFolder undisturbed_ = new_sample(folder_ / "undisturbed");
+  SampleFolder undisturbed_ = MadeUpRun::new_sample(folder_ / "undisturbed");
 };
 
 TEST_F(RunJudge, FindsNothingWrongWithAGoodRun) {
@@ -301,7 +138,7 @@ TEST_F(RunJudge, FindsAnIntentThatWasWrittenAfterwards) {
   run.take_frame(1);
   run.commit(1);
   run.witness("command_started",
-              {{"sequence", 2}, {"action", "grind_pass"}, {"position_um", face_um(2)}});
+              {{"sequence", 2}, {"action", "grind_pass"}, {"position_um", MadeUpRun::face_um(2)}});
   run.intend(2);
   run.end_pass("done");
   run.take_frame(2);
