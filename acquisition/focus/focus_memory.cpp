@@ -28,11 +28,9 @@ void FocusMemory::remember(const FocusedLayer& focused) {
     const bool is_expected =
         std::abs(deviation.value) <= kAsExpected * settings_.depth_of_field.value;
     wait_ = std::clamp(is_expected ? 2 * wait_ : wait_ / 2, 1, settings_.every_layers);
-    // What lies beyond the limit of change is a new beginning, not a drift.
-    const bridge::Micrometres most = settings_.largest_change;
-    const bridge::Micrometres a_layer = (kLearnt / layers) * deviation;
-    if (a_layer <= most && -1.0 * most <= a_layer) {
-      drift_ = std::clamp(drift_ + a_layer, -1.0 * most, most);
+    // A leap is a new beginning, not a drift.
+    if (std::abs(deviation.value) <= settings_.largest_change.value) {
+      drift_ = drift_ + (kLearnt / layers) * deviation;
     }
   }
   last_ = focused;

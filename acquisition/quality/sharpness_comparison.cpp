@@ -13,19 +13,22 @@ namespace {
 struct BandPair {
   DetailEnergy TileMeasures::*fine;
   DetailEnergy TileMeasures::*coarse;
-  double effect;      ///< on the logarithm of their quotient, relative to the first pair's
-  double noise_gain;  ///< of the finer band's energy per noise variance, both axes
-  double scatter;     ///< of the logarithm, between tiles of neighbouring faces without noise
+  double effect;   ///< on the logarithm of their quotient, relative to the first pair's
+  double noise;    ///< standard deviation of the finer energy, both axes, that white noise of
+                   ///< variance 1 leaves in a tile, times the root of its pixels
+  double scatter;  ///< of the logarithm, between tiles of neighbouring faces without noise
 };
 
 /// What each pair is good for: the first feels blur most but drowns in noise where there is little
-/// detail, as in casting material, where the second is still good. The effects are those of blur on
-/// the twin's tissue and casting material, the scatter is that of its layers.
+/// detail, as in casting material, where the others are still good. The effects are those of blur
+/// on the twin's tissue and casting material, the scatter is that of its layers; what noise leaves
+/// was measured on pictures of nothing else.
 constexpr std::array kPairs = {
-    BandPair{&TileMeasures::curvature, &TileMeasures::fine, 1.0, 12.0, 0.10},
-    BandPair{&TileMeasures::fine, &TileMeasures::middle, 0.25, 0.375, 0.08}};
+    BandPair{&TileMeasures::curvature, &TileMeasures::fine, 1.0, 20.0, 0.10},
+    BandPair{&TileMeasures::fine, &TileMeasures::middle, 0.25, 1.3, 0.08},
+    BandPair{&TileMeasures::middle, &TileMeasures::coarse, 0.08, 0.4, 0.08}};
 
-/// Which both estimates have in common with all tiles: what the scatter between them cannot show.
+/// Which the estimates have in common with all tiles: what the scatter between them cannot show.
 constexpr double kCommonError = 0.005;
 
 constexpr std::size_t kLeastTiles = 4;
@@ -34,8 +37,9 @@ constexpr std::size_t kLeastTiles = 4;
 constexpr double kContentChange = 0.4;
 constexpr double kLeastLikeness = 0.1;
 
-/// A pair whose finer energy noise alone makes fluctuate by more than this part says nothing.
-constexpr double kMostFluctuation = 0.7;
+/// A pair whose finer energy noise alone makes fluctuate by more than this part says nothing: where
+/// there is noise alone, none of a hundred tiles shows three standard deviations of it.
+constexpr double kMostFluctuation = 1.0 / 3.0;
 
 /// Below it a tile has lost all detail: the logarithm of nothing would say no more.
 constexpr double kLeastQuotient = 0.05;
@@ -140,10 +144,8 @@ double certainty(References references, std::size_t number, const BandPair& pair
   });
   const double noise =
       typical(references, number, [](const TileMeasures& tile) { return tile.noise; });
-  // The mean square of n normal deviates scatters by sqrt(2/n); those of overlapping stencils, of
-  // which a part is not independent, by somewhat more.
-  const double scatter = 2.0 / std::sqrt(static_cast<double>(pixels));
-  const double fluctuation = pair.noise_gain * noise * noise * scatter / energy;
+  const double fluctuation =
+      pair.noise * noise * noise / std::sqrt(static_cast<double>(pixels)) / energy;
   if (fluctuation > kMostFluctuation) return 0.0;
   return 1.0 / (pair.scatter * pair.scatter + fluctuation * fluctuation);
 }

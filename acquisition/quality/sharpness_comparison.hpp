@@ -39,11 +39,11 @@ struct SharpnessComparison {
 };
 
 /// Compares tile by tile with the median of the references, frames of the same size: this layer's
-/// sharpest, or the last layers'. Of each tile two quotients are compared: the curvature's energy
-/// over the gradient's, and the gradient's over that at half the resolution, which feels blur less
-/// and noise much less. Each gives a median over the tiles, weighted by how sure a tile is and by
-/// how much its coarse detail resembles the references'; the two are combined by their standard
-/// errors. Nothing when fewer than four tiles can be compared. `limit` only counts.
+/// sharpest, or the last layers'. Of each tile three quotients are compared: the curvature's energy
+/// over the gradient's, the gradient's over that at half the resolution, and that over the one at a
+/// quarter, which feel blur less and noise much less. Each gives a median over the tiles, weighted
+/// by how sure a tile is and by how much its coarse detail resembles the references'; the three are
+/// combined by their standard errors. Nothing when fewer than four tiles can be compared. `limit` only counts.
 ///
 /// A blur that takes 15 % of the contrast at half the Nyquist frequency leaves 0.87 on the twin's
 /// tissue; see docs/quality.md for how it scatters.

@@ -15,7 +15,7 @@ constexpr double kDoubtOfAxis = 1.0;
 
 /// And what a face's content changes by chance, for all tiles alike; of a frame of one megapixel,
 /// on the twin's layers.
-constexpr double kContent = 0.007;
+constexpr double kContent = 0.010;
 
 constexpr double kSmeared = 0.95;  ///< one axis' ratio over the other's, below: it moved
 constexpr const char* kBlurred = "blurred";

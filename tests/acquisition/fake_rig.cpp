@@ -161,7 +161,8 @@ bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
       lens_positions.empty() ? stage.status.column.value : 1e6 / lens_positions.back();
   const double defocus = std::abs(stage.status.ground_to.value - column_to_face_um - plane);
   bridge::Frame frame;
-  frame.image = ground_face(width, height, 0.5 + defocus / 20.0,
+  constexpr double kNothingLeft = 50.0;  // pixels of blur; more would take long and look the same
+  frame.image = ground_face(width, height, std::min(0.5 + defocus / 20.0, kNothingLeft),
                             stuck_face_um.value_or(stage.status.ground_to.value));
   add_noise(frame.image, static_cast<std::uint64_t>(captures));
   if (black_frames > 0) {

@@ -15,8 +15,8 @@ namespace biotomy::tests {
 /// How a specimen is ground and photographed.
 struct SequenceSettings {
   std::uint64_t seed = 1;
-  int width = 800;
-  int height = 600;
+  int width = 1600;
+  int height = 1200;
   int layers = 30;
   double layer_um = 20.0;
   double pixel_um = 10.0;

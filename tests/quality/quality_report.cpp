@@ -1,7 +1,7 @@
 // What the daemon's assessment makes of the labelled set, with its default thresholds: prints the
 // tables of docs/quality.md, or JSON. Ends with 1 when a goal is missed.
 //
-//   quality_report [--seeds train|test] [--sequences 48] [--threads 2] [--json] [--wrong]
+//   quality_report [--seeds train|test] [--sequences 36] [--threads 2] [--json] [--wrong]
 
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +22,7 @@ using namespace biotomy::tests;
 
 struct Options {
   std::string seeds = "test";
-  int sequences = 48;
+  int sequences = 36;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
   bool as_json = false;
   bool wrong = false;

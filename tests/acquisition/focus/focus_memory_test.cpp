@@ -69,8 +69,8 @@ TEST(FocusMemory, FollowsADriftThatTheSearchesFound) {
 TEST(FocusMemory, TakesALeapForANewBeginningAndNotForADrift) {
   FocusMemory memory(settings(), {20.0});
   memory.remember(focused(1, 640.0));
-  memory.remember(focused(2, 960.0));
-  EXPECT_EQ(memory.predicted(3).value, 980.0);
+  memory.remember(focused(2, 720.0));
+  EXPECT_EQ(memory.predicted(3).value, 740.0);
 }
 
 TEST(FocusMemory, SearchesWhenTheSharpnessFell) {

@@ -217,6 +217,7 @@ TEST(FaceJudgement, RaisesNoAlarmWhileTheSpecimenChanges) {
                    .top_um = view.top_um},
                   view.thickness_um);
       watch.thresholds.minimum_sharpness_ratio = 0.0;  // not what is looked at here
+      watch.thresholds.minimum_sharpness_along_axis = 0.0;
       watch.grind_to(20);
     }
   }
