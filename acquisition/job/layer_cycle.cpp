@@ -230,7 +230,8 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
   if (const auto& ratio = in_hand_->assessment.sharpness_to_peak) focus_memory_.accepted(*ratio);
   expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
   expectation_.sharpness.accept(in_hand_->assessment.measures);
-  expectation_.surfaces.accept(layer_, in_hand_->assessment.surface, in_hand_->assessment.light);
+  expectation_.surfaces.accept(layer_, in_hand_->assessment.surface, in_hand_->assessment.light,
+                               in_hand_->assessment.arrived);
   last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
   in_hand_.reset();
   parts_.feed.offer(layer_);

@@ -56,13 +56,14 @@ struct Assessment {
   std::shared_ptr<const FrameMeasures> measures;
   std::shared_ptr<const SurfacePrint> surface;
   FrameLight light;
+  double arrived = 0.0;  ///< part of the frame in which new tissue came up: see SurfaceDefects
 };
 
 /// Thresholds of the metrics, each under the metric's name.
 struct QualityThresholds {
   double minimum_sharpness_ratio = 0.96;
   double minimum_sharpness_to_record = 0.75;  ///< after a search of the same layer
-  double minimum_sharpness_along_axis = 0.965;
+  double minimum_sharpness_along_axis = 0.97;
   double minimum_brightness = 0.05;         ///< mean, of full scale
   double maximum_brightness = 0.95;         ///< mean, of full scale
   double maximum_clipped_fraction = 0.05;   ///< of pixels with a colour at full scale

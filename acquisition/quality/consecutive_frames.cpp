@@ -20,7 +20,7 @@ void ConsecutiveFrames::accept(const Assessment& assessment) {
   if (!assessment.face) return;
   expectation_.faces.accept(layer_, assessment.face, assessment.face_change);
   expectation_.sharpness.accept(assessment.measures);
-  expectation_.surfaces.accept(layer_, assessment.surface, assessment.light);
+  expectation_.surfaces.accept(layer_, assessment.surface, assessment.light, assessment.arrived);
   ++layer_;
 }
 

@@ -62,10 +62,12 @@ double along_y(const DetailEnergy& energy) {
   return energy.along_y;
 }
 
+/// Of an even number of values the mean of the two in the middle.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.size() % 2 == 1 ? *middle
+                                : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 struct Weighted {

@@ -43,7 +43,8 @@ struct SharpnessComparison {
 /// over the gradient's, the gradient's over that at half the resolution, and that over the one at a
 /// quarter, which feel blur less and noise much less. Each gives a median over the tiles, weighted
 /// by how sure a tile is and by how much its coarse detail resembles the references'; the three are
-/// combined by their standard errors. Nothing when fewer than four tiles can be compared. `limit` only counts.
+/// combined by their standard errors. Nothing when fewer than four tiles can be compared. `limit`
+/// only counts.
 ///
 /// A blur that takes 15 % of the contrast at half the Nyquist frequency leaves 0.87 on the twin's
 /// tissue; see docs/quality.md for how it scatters.

@@ -15,7 +15,7 @@ constexpr int kScale = 2;       ///< pixels of the frame along a side of a patch
 constexpr int kMostSide = 192;  ///< of a patch, pixels of the frame
 constexpr int kLeastSide = 64;
 constexpr int kPatchesAlong = 5;  ///< a side of the frame, both corners included
-constexpr double kLeastPeak = 0.1;
+constexpr double kLeastPeak = 0.05;
 constexpr double kAlone = 2.0;  ///< the highest peak against the next
 constexpr int kPeakReach = 2;   ///< pixels of a patch that belong to a peak
 

@@ -32,8 +32,8 @@ struct Shift {
 /// Conf. Cybernetics and Society (1975) 163-165), with a Hann window, the spectra of all patches
 /// summed before the way back: what has the same shift in all of them adds up, what moves by itself
 /// or is noise does not. The peak's place to a part of a pixel is a parabola's. Nothing when the
-/// highest peak is less than 0.1 of what it would be if all agreed, or not twice as high as any
-/// other, as where there is no grain.
+/// highest peak is less than 0.05 of what it would be if all agreed (chance gives 0.01), or not
+/// twice as high as any other, as where there is no grain.
 ///
 /// On the twin's phantom 20 µm apart, pixels of 10 µm: within 0.3 pixels for shifts up to 20. Up to
 /// a quarter of a patch's side can be found, 48 pixels in large frames.

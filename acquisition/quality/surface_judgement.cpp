@@ -1,5 +1,6 @@
 #include "acquisition/quality/surface_judgement.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "acquisition/quality/surface_defects.hpp"
@@ -10,6 +11,10 @@ namespace {
 /// Where tissue comes up over larger areas some of it has, in small places, colours of its own:
 /// this part of the area.
 constexpr double kNewPerArrived = 0.16;
+
+/// It goes on coming up in the next layer, over this part of what the last one showed, be it in
+/// small places alone.
+constexpr double kStillArrives = 0.5;
 
 void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
                  const QualityThresholds& thresholds, Judgement& judgement) {
@@ -42,8 +47,10 @@ void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
                     "%.4f of the frame is glare, more than %.4f: ice or liquid reflects the lamp");
   judgement.at_most("frost", found.frost, thresholds.maximum_frost, "frost",
                     "%.4f of the frame is under a whitish veil, more than %.4f: frost on the face");
-  judgement.at_most("debris", found.debris,
-                    thresholds.maximum_debris + kNewPerArrived * found.arrived, "debris",
+  judgement.result().arrived = found.arrived;
+  const double arrives = std::max(found.arrived, kStillArrives * surfaces.arrived());
+  judgement.at_most("debris", found.debris, thresholds.maximum_debris + kNewPerArrived * arrives,
+                    "debris",
                     "%.4f of the frame has colours that the layers before have nowhere near, more "
                     "than %.4f: debris on the face");
 }

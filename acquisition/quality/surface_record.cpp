@@ -15,8 +15,9 @@ double median(std::vector<double> values) {
 }  // namespace
 
 void SurfaceRecord::accept(std::int64_t layer, std::shared_ptr<const SurfacePrint> surface,
-                           const FrameLight& light) {
+                           const FrameLight& light, double arrived) {
   layer_ = layer;
+  arrived_ = arrived;
   surface_ = std::move(surface);
   if (surface_ && surface_->colours) colours_.push_back(surface_->colours);
   if (colours_.size() > kRemembered) colours_.erase(colours_.begin());

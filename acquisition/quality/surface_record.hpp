@@ -27,15 +27,18 @@ class SurfaceRecord {
   /// So many layers' light and colours are remembered.
   static constexpr std::size_t kRemembered = 8;
 
-  /// The layer is accepted and stored. `light` is what it was found to have been taken in.
+  /// The layer is accepted and stored. `light` is what it was found to have been taken in,
+  /// `arrived` the part of it in which new tissue came up.
   void accept(std::int64_t layer, std::shared_ptr<const SurfacePrint> surface,
-              const FrameLight& light);
+              const FrameLight& light, double arrived = 0.0);
 
   /// The colour of the first layer's casting material, known from the journal, before any `accept`.
   void recall(const CastingColour& first) { first_casting_ = first; }
 
   std::int64_t layer() const { return layer_; }  ///< whose surface it is; 0 for none
   const SurfacePrint* surface() const { return surface_.get(); }
+
+  double arrived() const { return arrived_; }  ///< in the last layer
 
   /// Of the last layers, at least one once there is a surface.
   const std::vector<std::shared_ptr<const SurfaceColours>>& colours() const { return colours_; }
@@ -53,6 +56,7 @@ class SurfaceRecord {
  private:
   std::int64_t layer_ = 0;
   std::shared_ptr<const SurfacePrint> surface_;
+  double arrived_ = 0.0;
   std::vector<std::shared_ptr<const SurfaceColours>> colours_;
   std::deque<FrameLight> lights_;
   std::optional<CastingColour> casting_;

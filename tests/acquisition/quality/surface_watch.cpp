@@ -25,7 +25,7 @@ Assessment SurfaceWatch::judge(const cv::Mat& image) const {
 
 Assessment SurfaceWatch::accept(const cv::Mat& image) {
   Assessment assessment = judge(image);
-  record.accept(++layer, assessment.surface, assessment.light);
+  record.accept(++layer, assessment.surface, assessment.light, assessment.arrived);
   return assessment;
 }
 
