@@ -31,7 +31,7 @@ struct CameraDescription {
   int width = 0;
   int height = 0;
   std::optional<LensRange> lens{};  ///< of a camera that can drive its lens
-  std::string correction = {};  ///< what was done to its frames, in words; empty if nothing
+  std::string correction = {};      ///< what was done to its frames, in words; empty if nothing
 };
 
 /// A camera that takes one still at a time. One thread owns it. Every call throws DeviceError.

@@ -27,7 +27,8 @@ void DaemonMemory::accepted(const bridge::Frame& frame, const acquisition::Asses
   expectation_.faces.saw(*assessment.face);
   expectation_.faces.accept(expectation_.layer, assessment.face, assessment.face_change);
   expectation_.sharpness.accept(assessment.measures);
-  expectation_.surfaces.accept(expectation_.layer, assessment.surface, assessment.light, assessment.arrived);
+  expectation_.surfaces.accept(expectation_.layer, assessment.surface, assessment.light,
+                               assessment.arrived);
 }
 
 }  // namespace biotomy::tests
