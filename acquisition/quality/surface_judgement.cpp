@@ -10,11 +10,7 @@ namespace {
 
 /// Where tissue comes up over larger areas some of it has, in small places, colours of its own:
 /// this part of the area.
-constexpr double kNewPerArrived = 0.16;
-
-/// It goes on coming up in the next layer, over this part of what the last one showed, be it in
-/// small places alone.
-constexpr double kStillArrives = 0.5;
+constexpr double kNewPerArrived = 0.08;
 
 void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
                  const QualityThresholds& thresholds, Judgement& judgement) {
@@ -48,7 +44,8 @@ void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
   judgement.at_most("frost", found.frost, thresholds.maximum_frost, "frost",
                     "%.4f of the frame is under a whitish veil, more than %.4f: frost on the face");
   judgement.result().arrived = found.arrived;
-  const double arrives = std::max(found.arrived, kStillArrives * surfaces.arrived());
+  // It goes on coming up in the next layer, be it in small places alone.
+  const double arrives = std::max(found.arrived, surfaces.arrived());
   judgement.at_most("debris", found.debris, thresholds.maximum_debris + kNewPerArrived * arrives,
                     "debris",
                     "%.4f of the frame has colours that the layers before have nowhere near, more "
