@@ -80,6 +80,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       surroundings_(std::move(surroundings)),
       commands_(parts.stage, settings_.limits),
       supervision_(settings_.limits),
+      homing_(commands_),
       parking_(commands_, settings_.limits),
       may_go_on_by_itself_(earlier.was_running &&
                            settings.plan.after_restart == JobPlan::AfterRestart::go_on),
@@ -204,7 +205,7 @@ std::optional<JobEvent> Job::poll_step(TimePoint now) {
     case JobState::recovering:
       return poll_recovering();
     case JobState::homing:
-      return poll_homing(now);
+      return homing_.poll(*fresh_, now) ? std::optional(JobEvent::step_done) : std::nullopt;
     case JobState::conditioning:
       return poll_conditioning(now);
     case JobState::held:
@@ -255,6 +256,9 @@ void Job::enter(JobState state, TimePoint now) {
   switch (state) {
     case JobState::preflight:
       begin_preflight();
+      break;
+    case JobState::homing:
+      homing_.begin();
       break;
     case JobState::conditioning:
       conditioning_.begin(now);

@@ -11,6 +11,7 @@
 #include "acquisition/job/conditioning.hpp"
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/early_notes.hpp"
+#include "acquisition/job/homing_step.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/job_status.hpp"
@@ -86,7 +87,6 @@ class Job {
   std::optional<JobEvent> poll_step(TimePoint now);
   std::optional<JobEvent> poll_preflight();
   std::optional<JobEvent> poll_recovering();
-  std::optional<JobEvent> poll_homing(TimePoint now);
   std::optional<JobEvent> poll_conditioning(TimePoint now);
   std::optional<JobEvent> poll_held(TimePoint now);
   std::optional<JobEvent> poll_finishing(TimePoint now);
@@ -118,6 +118,7 @@ class Job {
   Surroundings surroundings_;
   StageCommands commands_;
   Supervision supervision_;
+  HomingStep homing_;
   Parking parking_;
 
   JobState state_ = JobState::faulted;
