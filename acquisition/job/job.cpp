@@ -107,10 +107,16 @@ void Job::tick(TimePoint now) {
   answer_operator();
 }
 
+/// A rig at rest has nothing to stop; while the latch is being reset, `poll_resetting` looks.
+bool Job::is_watched() const {
+  if (calibration_ && calibration_->moves_axes()) return true;
+  return !is_at_rest(state_) && state_ != JobState::resetting;
+}
+
 /// Before the controller is asked: it may take its time-outs to answer, and an e-stop never waits.
 void Job::look_at_lines(TimePoint now) {
   inputs_ = parts_.lines.read_inputs();
-  if (is_at_rest(state_) || state_ == JobState::resetting) return;
+  if (!is_watched()) return;
   if (const auto cause = Supervision::line_cause(inputs_)) fault(*cause, now);
 }
 
@@ -130,8 +136,7 @@ void Job::exchange(TimePoint now) {
 }
 
 void Job::supervise(TimePoint now) {
-  // At rest there is nothing to stop; while the latch is being reset, `poll_resetting` looks.
-  if (is_at_rest(state_) || state_ == JobState::resetting) return;
+  if (!is_watched()) return;
   if (const auto cause = supervision_.cause()) {
     fault(*cause, now);
     return;
@@ -321,6 +326,7 @@ void Job::fault(const std::string& cause, TimePoint now) {
   pause_requested_ = false;
   inspection_ = {};
   stop_wanted_ = !commands_.stop_now(now);
+  if (calibration_) end_calibration(CalibrationStatus::Progress::failed, cause);
   fault_parking_ = FaultParking::wanted;
   fault_park_until_ = now + settings_.limits.park_limit;
   if (cycle_) cycle_->abandon(cause);
