@@ -38,7 +38,7 @@ struct FocusCalibrationTest : testing::Test {
   }
 
   OperatorReply calibrate() {
-    const OperatorReply reply = bench.say(OperatorCommand::calibrate_focus);
+    OperatorReply reply = bench.say(OperatorCommand::calibrate_focus);
     for (int i = 0; i < 5000 && calibration().progress == Progress::running; ++i) bench.tick();
     return reply;
   }
@@ -132,6 +132,12 @@ TEST_F(FocusCalibrationTest, BeginsWhereTheColumnWasBroughtTo) {
 
 TEST_F(FocusCalibrationTest, BeginsAtTheConfiguredStartWhenTheColumnIsAtHome) {
   bench.stage.status.interlocks.homed = true;
+  calibrate();
+  EXPECT_NEAR(column_targets().at(1), 300.0, 50.0);
+}
+
+TEST_F(FocusCalibrationTest, BeginsAtTheConfiguredStartWhereverTheColumnStoodUnhomed) {
+  bench.stage.status.column = {700.0};
   calibrate();
   EXPECT_NEAR(column_targets().at(1), 300.0, 50.0);
 }
