@@ -15,4 +15,9 @@ struct Optics {
 /// ed., Plenum 1997, 2.4.5, with a refractive index of 1.
 bridge::Micrometres depth_of_field(const Optics& optics);
 
+/// The same by a curve of detail, from the step of the bracket of so many points that suits it (see
+/// Autofocus::Found): as far as the bracket's ends lie from the peak. A plane half of it away from
+/// the peak keeps 93 % of the detail's energy.
+bridge::Micrometres depth_of_field_by_curve(bridge::Micrometres suitable_step, int points);
+
 }  // namespace biotomy::acquisition

@@ -5,9 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "acquisition/job/capture.hpp"
 #include "acquisition/log.hpp"
-#include "acquisition/quality/sharpness_comparison.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -40,17 +38,16 @@ FocusStep::FocusStep(const JobSettings& settings, std::unique_ptr<FocusActuator>
 void FocusStep::begin(std::int64_t layer, SearchReason reason, TimePoint now) {
   layer_ = layer;
   search_.reset();
-  const bridge::AxisLimits limits = actuator_->limits();
   if (reason.words == nullptr) {
+    const bridge::AxisLimits limits = actuator_->limits();
     approach(std::clamp(memory_.predicted(layer), limits.minimum, limits.maximum), now);
     return;
   }
-  SearchPlan plan = memory_.plan(layer, reason.anywhere);
-  plan.predicted = std::clamp(plan.predicted, limits.minimum, limits.maximum);
-  focus_ = plan.predicted;
-  row_ = {.layer = layer, .why = reason.words, .column = {}, .points = {}, .lean = {}};
-  search_.emplace(settings_.focus, plan, limits);
-  ask_next(now);
+  why_ = reason.words;
+  phase_ = Phase::search;
+  search_.emplace(settings_, memory_.plan(layer, reason.anywhere),
+                  SearchParts{*actuator_, camera_, worker_}, now);
+  focus_ = search_->predicted();
 }
 
 void FocusStep::move_to(bridge::Micrometres target, TimePoint now) {
@@ -68,64 +65,32 @@ void FocusStep::approach(bridge::Micrometres target, TimePoint now) {
           now);
 }
 
-void FocusStep::ask_next(TimePoint now) {
-  if (const std::optional<Autofocus::Request> request = search_->next()) {
-    phase_ = Phase::move_in_search;
-    move_to(request->position, now);
-  } else {
-    end_search(now);
-  }
-}
-
 bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
-  if (phase_ == Phase::in_focus) return true;
-  if (phase_ == Phase::measure) {
-    if (is_ready(measured_)) take_measures(now);
-    return phase_ == Phase::in_focus;
-  }
-  if (!actuator_->settled(status, now)) return false;
   switch (phase_) {
-    case Phase::move_in_search:
-      if (search_->next()->measure) {
-        take_frame();
-      } else {
-        search_->arrived();
-        ask_next(now);
-      }
-      return false;
+    case Phase::search:
+      if (search_->poll(status, now)) end_search(now);
+      return phase_ == Phase::in_focus;
     case Phase::take_up_backlash:
+      if (!actuator_->settled(status, now)) return false;
       phase_ = Phase::move_to_focus;
       move_to(focus_, now);
       return false;
-    default:
+    case Phase::move_to_focus:
+      return actuator_->settled(status, now);
+    case Phase::in_focus:
       return true;
   }
-}
-
-void FocusStep::take_frame() {
-  phase_ = Phase::measure;
-  measured_ =
-      run_on(worker_, [this_camera = &camera_, time_out = settings_.camera.capture_time_out] {
-        return std::make_shared<const FrameMeasures>(
-            measure_frame(capture(*this_camera, time_out).image));
-      });
-}
-
-void FocusStep::take_measures(TimePoint now) {
-  std::shared_ptr<const FrameMeasures> measures = measured_.get();
-  row_.points.push_back({search_->next()->position, sharpness(*measures)});
-  search_->measured(std::move(measures));
-  ask_next(now);
+  return false;
 }
 
 void FocusStep::end_search(TimePoint now) {
-  const std::optional<Autofocus::Found>& found = search_->found();
-  report(found);
-  if (found) {
+  stands_at_ = search_->stands_at();
+  report();
+  if (const std::optional<Autofocus::Found>& found = search_->found()) {
     // The frame that confirmed it was taken there.
     memory_.remember({.layer = layer_,
                       .position = found->position,
-                      .sharpness = row_.sharpness,
+                      .sharpness = search_->points().back().sharpness,
                       .measures = found->measures,
                       .step = found->step});
     phase_ = Phase::in_focus;
@@ -140,30 +105,32 @@ void FocusStep::end_search(TimePoint now) {
   approach(focus_, now);
 }
 
-void FocusStep::report(const std::optional<Autofocus::Found>& found) {
-  row_.found = found.has_value();
-  row_.column = found ? found->position : focus_;
-  row_.sharpness = found ? row_.points.back().sharpness : 0.0;
-  if (found && found->map) {
-    const cv::Size frame = found->measures->grid.frame;
-    row_.lean = lean_of(*found->map, static_cast<double>(frame.width) * settings_.plan.pixel_x,
-                        static_cast<double>(frame.height) * settings_.plan.pixel_y);
-    warn_of_lean(*row_.lean, found->map->tilt(), settings_.focus.depth_of_field);
-  }
+void FocusStep::report() {
+  const std::optional<Autofocus::Found>& found = search_->found();
+  const FocusRow row{.layer = layer_,
+                     .why = why_,
+                     .column = found ? found->position : focus_,
+                     .sharpness = found ? search_->points().back().sharpness : 0.0,
+                     .found = found.has_value(),
+                     .points = search_->points(),
+                     .lean = search_->lean()};
+  if (row.lean) warn_of_lean(*row.lean, found->map->tilt(), settings_.focus.depth_of_field);
   last_search_ = FocusReport{.layer = layer_,
-                             .why = row_.why,
-                             .found = row_.found,
+                             .why = row.why,
+                             .found = row.found,
                              .why_not = search_->why_not(),
                              .actuator = actuator_->name(),
-                             .position = actuator_->describe(row_.column),
-                             .plane = row_.column,
-                             .frames = static_cast<int>(row_.points.size()),
-                             .lean = row_.lean};
-  keeper_.post([row = row_](SampleRecords& records) { records.record_focus(row); });
+                             .position = actuator_->describe(row.column),
+                             .plane = row.column,
+                             .frames = static_cast<int>(row.points.size()),
+                             .lean = row.lean};
+  keeper_.post([row](SampleRecords& records) { records.record_focus(row); });
 }
 
 std::string FocusStep::waiting_for() const {
-  if (phase_ == Phase::measure) return "waits for a frame of the focus search";
+  if (phase_ == Phase::search && search_->waits_for_frame()) {
+    return "waits for a frame of the focus search";
+  }
   const std::string moves = std::string("waits for the ") + actuator_->name();
   return search_ ? moves + ", searching the focus" : moves;
 }

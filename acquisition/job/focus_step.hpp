@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "acquisition/focus/autofocus.hpp"
 #include "acquisition/focus/focus_actuator.hpp"
 #include "acquisition/focus/focus_memory.hpp"
 #include "acquisition/job/focus_report.hpp"
+#include "acquisition/job/focus_search.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "acquisition/job/worker.hpp"
@@ -44,13 +43,10 @@ class FocusStep {
  private:
   void move_to(bridge::Micrometres target, TimePoint now);
   void approach(bridge::Micrometres target, TimePoint now);
-  void ask_next(TimePoint now);
-  void take_frame();
-  void take_measures(TimePoint now);
   void end_search(TimePoint now);
-  void report(const std::optional<Autofocus::Found>& found);
+  void report();
 
-  enum class Phase { move_in_search, measure, take_up_backlash, move_to_focus, in_focus };
+  enum class Phase { search, take_up_backlash, move_to_focus, in_focus };
 
   const JobSettings& settings_;
   std::unique_ptr<FocusActuator> actuator_;
@@ -60,12 +56,11 @@ class FocusStep {
   RecordKeeper& keeper_;
 
   std::int64_t layer_ = 0;
-  std::optional<Autofocus> search_;
-  FocusRow row_;  ///< of the search
+  const char* why_ = nullptr;  ///< it is searched
+  std::optional<FocusSearch> search_;
   Phase phase_ = Phase::move_to_focus;
   bridge::Micrometres focus_{};
   std::optional<bridge::Micrometres> stands_at_;
-  std::future<std::shared_ptr<const FrameMeasures>> measured_;
   std::optional<FocusReport> last_search_;
 };
 

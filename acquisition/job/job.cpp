@@ -80,6 +80,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       surroundings_(std::move(surroundings)),
       commands_(parts.stage, settings_.limits),
       supervision_(settings_.limits),
+      homing_(commands_),
       parking_(commands_, settings_.limits),
       may_go_on_by_itself_(earlier.was_running &&
                            settings.plan.after_restart == JobPlan::AfterRestart::go_on),
@@ -106,10 +107,16 @@ void Job::tick(TimePoint now) {
   answer_operator();
 }
 
+/// A rig at rest has nothing to stop; while the latch is being reset, `poll_resetting` looks.
+bool Job::is_watched() const {
+  if (calibration_ && calibration_->moves_axes()) return true;
+  return !is_at_rest(state_) && state_ != JobState::resetting;
+}
+
 /// Before the controller is asked: it may take its time-outs to answer, and an e-stop never waits.
 void Job::look_at_lines(TimePoint now) {
   inputs_ = parts_.lines.read_inputs();
-  if (is_at_rest(state_) || state_ == JobState::resetting) return;
+  if (!is_watched()) return;
   if (const auto cause = Supervision::line_cause(inputs_)) fault(*cause, now);
 }
 
@@ -129,8 +136,7 @@ void Job::exchange(TimePoint now) {
 }
 
 void Job::supervise(TimePoint now) {
-  // At rest there is nothing to stop; while the latch is being reset, `poll_resetting` looks.
-  if (is_at_rest(state_) || state_ == JobState::resetting) return;
+  if (!is_watched()) return;
   if (const auto cause = supervision_.cause()) {
     fault(*cause, now);
     return;
@@ -204,7 +210,7 @@ std::optional<JobEvent> Job::poll_step(TimePoint now) {
     case JobState::recovering:
       return poll_recovering();
     case JobState::homing:
-      return poll_homing(now);
+      return homing_.poll(*fresh_, now) ? std::optional(JobEvent::step_done) : std::nullopt;
     case JobState::conditioning:
       return poll_conditioning(now);
     case JobState::held:
@@ -255,6 +261,9 @@ void Job::enter(JobState state, TimePoint now) {
   switch (state) {
     case JobState::preflight:
       begin_preflight();
+      break;
+    case JobState::homing:
+      homing_.begin();
       break;
     case JobState::conditioning:
       conditioning_.begin(now);
@@ -317,6 +326,7 @@ void Job::fault(const std::string& cause, TimePoint now) {
   pause_requested_ = false;
   inspection_ = {};
   stop_wanted_ = !commands_.stop_now(now);
+  if (calibration_) end_calibration(CalibrationStatus::Progress::failed, cause);
   fault_parking_ = FaultParking::wanted;
   fault_park_until_ = now + settings_.limits.park_limit;
   if (cycle_) cycle_->abandon(cause);

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "acquisition/calibration/calibration_run.hpp"
+#include "acquisition/calibration/frame_calibration.hpp"
 #include "acquisition/job/conditioning.hpp"
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/early_notes.hpp"
+#include "acquisition/job/homing_step.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/job_status.hpp"
@@ -65,6 +67,7 @@ class Job {
   bool at_rest() const;
 
  private:
+  bool is_watched() const;
   void look_at_lines(TimePoint now);
   void exchange(TimePoint now);
   void supervise(TimePoint now);
@@ -75,7 +78,11 @@ class Job {
   OperatorReply begin(JobEvent event, TimePoint now);
   OperatorReply acknowledge(TimePoint now);
   OperatorReply calibrate(CalibrationKind kind, TimePoint now);
+  OperatorReply calibrate_focus(TimePoint now);
+  std::optional<std::string> why_no_calibration() const;
+  OperatorReply calibration_begun(const char* kind);
   void poll_calibration(TimePoint now);
+  void give_up_calibration(const std::string& why, TimePoint now);
   void end_calibration(CalibrationStatus::Progress progress, const std::string& sentence);
   void go_on_by_itself(TimePoint now);
   void wait_for_a_person(const std::string& why);
@@ -86,7 +93,6 @@ class Job {
   std::optional<JobEvent> poll_step(TimePoint now);
   std::optional<JobEvent> poll_preflight();
   std::optional<JobEvent> poll_recovering();
-  std::optional<JobEvent> poll_homing(TimePoint now);
   std::optional<JobEvent> poll_conditioning(TimePoint now);
   std::optional<JobEvent> poll_held(TimePoint now);
   std::optional<JobEvent> poll_finishing(TimePoint now);
@@ -118,6 +124,7 @@ class Job {
   Surroundings surroundings_;
   StageCommands commands_;
   Supervision supervision_;
+  HomingStep homing_;
   Parking parking_;
 
   JobState state_ = JobState::faulted;

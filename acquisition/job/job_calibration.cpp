@@ -1,57 +1,103 @@
 // How a job at rest records calibrations.
-#include "acquisition/calibration/calibration_run.hpp"
+#include "acquisition/calibration/calibration_record.hpp"
+#include "acquisition/calibration/focus_calibration.hpp"
+#include "acquisition/calibration/frame_calibration.hpp"
 #include "acquisition/job/job.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/device_error.hpp"
 
 namespace biotomy::acquisition {
+namespace {
 
-OperatorReply Job::calibrate(CalibrationKind kind, TimePoint now) {
-  const auto refused = [](std::string sentence) {
-    return OperatorReply{false, std::move(sentence)};
-  };
-  if (calibration_) return refused("a calibration is under way already");
+OperatorReply refused(const std::string& sentence) {
+  return {false, sentence};
+}
+
+}  // namespace
+
+std::optional<std::string> Job::why_no_calibration() const {
+  if (calibration_) return "a calibration is under way already";
   if (state_ == JobState::faulted) {
-    return refused("the rig is stopped by an alarm (" + alarm_->cause + "): acknowledge it first");
+    return "the rig is stopped by an alarm (" + alarm_->cause + "): acknowledge it first";
   }
   if (state_ != JobState::idle && state_ != JobState::done && state_ != JobState::aborted) {
-    return refused(std::string("the job is ") + to_string(state_) +
-                   ": calibrate before it begins or after its end");
+    return std::string("the job is ") + to_string(state_) +
+           ": calibrate before it begins or after its end";
   }
   if (const auto cause = supervision_.standing_cause()) {
-    return refused("something is wrong with the rig: " + *cause);
+    return "something is wrong with the rig: " + *cause;
   }
+  return std::nullopt;
+}
+
+OperatorReply Job::calibration_begun(const char* kind) {
+  calibration_status_ = {kind, CalibrationStatus::Progress::running, calibration_->progress()};
+  return {true, "the calibration has begun"};
+}
+
+OperatorReply Job::calibrate(CalibrationKind kind, TimePoint now) {
+  if (const auto why = why_no_calibration()) return refused(*why);
   bridge::Camera& camera = parts_.plain_camera != nullptr ? *parts_.plain_camera : parts_.camera;
   const auto utc_now = [clock = surroundings_.wall_clock] { return utc_text(clock()); };
   try {
-    calibration_ = std::make_unique<CalibrationRun>(
+    calibration_ = std::make_unique<FrameCalibration>(
         kind, settings_.calibration, settings_.camera, settings_.plan.lamp_warm_up,
-        CalibrationParts{camera, parts_.lines, parts_.worker}, utc_now, now);
+        FrameCalibrationParts{camera, parts_.lines, parts_.worker}, utc_now, now);
   } catch (const bridge::DeviceError& error) {
     return refused(error.what());
   }
-  calibration_status_ = {to_string(kind), CalibrationStatus::Progress::running, "takes frames"};
-  return {true, "the calibration has begun"};
+  return calibration_begun(to_string(kind));
+}
+
+OperatorReply Job::calibrate_focus(TimePoint now) {
+  if (const auto why = why_no_calibration()) return refused(*why);
+  supervision_.forget_positions();
+  if (const auto cause = supervision_.cause()) {
+    // What only an acknowledgement cures needs a latch to acknowledge.
+    fault(*cause, now);
+    return refused("the rig is stopped by an alarm (" + *cause + "): acknowledge it first");
+  }
+  if (!fresh_) return refused("the controller did not answer just now: try again");
+  if (const auto complaint = focus_calibration_complaint(*fresh_)) return refused(*complaint);
+  const auto utc_now = [clock = surroundings_.wall_clock] { return utc_text(clock()); };
+  calibration_ = std::make_unique<FocusCalibration>(
+      settings_,
+      FocusCalibrationParts{parts_.stage, commands_, parts_.lines, parts_.camera, parts_.worker},
+      utc_now, now);
+  return calibration_begun("focus");
 }
 
 void Job::poll_calibration(TimePoint now) {
   using enum CalibrationStatus::Progress;
   if (const auto cause = supervision_.standing_cause()) {
-    end_calibration(failed, "it was given up: " + *cause);
+    give_up_calibration(*cause, now);
     return;
   }
   try {
-    if (const auto found = calibration_->poll(now)) {
+    if (const auto found = calibration_->poll(fresh_, now)) {
       end_calibration(done, *found);
     } else {
-      calibration_status_.sentence = std::to_string(calibration_->taken()) + " of " +
-                                     std::to_string(settings_.calibration.frames) +
-                                     " frames are taken";
+      calibration_status_.sentence = calibration_->progress();
     }
-  } catch (const std::exception& error) {
+  } catch (const CalibrationError& error) {
     end_calibration(failed, error.what());
+  } catch (const std::exception& error) {
+    // Whoever moves axes and cannot go on leaves a rig that a person must look at.
+    if (calibration_->moves_axes()) {
+      fault(error.what(), now);
+    } else {
+      end_calibration(failed, error.what());
+    }
   }
+}
+
+void Job::give_up_calibration(const std::string& why, TimePoint now) {
+  if (calibration_->moves_axes() && !commands_.stop_now(now)) {
+    fault("the stage did not take the stop of its calibration (" + why + ")", now);
+    return;
+  }
+  end_calibration(CalibrationStatus::Progress::failed, "it was given up: " + why);
 }
 
 void Job::end_calibration(CalibrationStatus::Progress progress, const std::string& sentence) {

@@ -25,7 +25,8 @@ OperatorReply refused(std::string sentence) {
 bool needs_sight(OperatorCommand command) {
   return command == OperatorCommand::start || command == OperatorCommand::resume ||
          command == OperatorCommand::acknowledge || command == OperatorCommand::calibrate_flat ||
-         command == OperatorCommand::calibrate_dark || command == OperatorCommand::calibrate_white;
+         command == OperatorCommand::calibrate_dark ||
+         command == OperatorCommand::calibrate_white || command == OperatorCommand::calibrate_focus;
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
       return accepted("the step at hand is finished, then the rig is parked");
     case OperatorCommand::abort:
       if (calibration_) {
-        end_calibration(CalibrationStatus::Progress::failed, "it was given up: abort");
+        give_up_calibration("abort", now);
         return accepted("the calibration is given up");
       }
       if (!next_state(state_, JobEvent::abort)) {
@@ -107,11 +108,12 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
       return calibrate(CalibrationKind::dark, now);
     case OperatorCommand::calibrate_white:
       return calibrate(CalibrationKind::white, now);
+    case OperatorCommand::calibrate_focus:
+      return calibrate_focus(now);
     case OperatorCommand::shut_down:
       shutting_down_ = true;
       if (calibration_) {
-        end_calibration(CalibrationStatus::Progress::failed,
-                        "it was given up: the daemon is being stopped");
+        give_up_calibration("the daemon is being stopped", now);
       }
       pause_requested_ = !is_at_rest(state_);
       return accepted("the rig is brought to rest");

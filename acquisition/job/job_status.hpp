@@ -24,7 +24,7 @@ struct Alarm {
 
 /// What has become of the last calibration that was asked for.
 struct CalibrationStatus {
-  std::string kind;  ///< "flat", "dark", "white"; empty before the first
+  std::string kind;  ///< "flat", "dark", "white", "focus"; empty before the first
   enum class Progress { running, done, failed } progress = Progress::done;
   std::string sentence;  ///< how far it is, what was found, or why it failed
 };

@@ -5,7 +5,6 @@
 
 #include "acquisition/job/job.hpp"
 #include "acquisition/log.hpp"
-#include "firmware_bridge/device_error.hpp"
 
 namespace biotomy::acquisition {
 
@@ -27,17 +26,10 @@ void Job::begin_preflight() {
   begin_inspection();
 }
 
-/// Once the controller has said what it is and fits; a line that lost the question or the answer is
-/// no reason to stop, and is asked again at the next tick.
+/// Once the controller has said what it is and fits.
 void Job::begin_inspection() {
-  try {
-    identity_ = parts_.stage.identify();
-  } catch (const bridge::DeviceError& error) {
-    const bool may_answer_yet = error.kind() == bridge::DeviceError::Kind::timeout ||
-                                error.kind() == bridge::DeviceError::Kind::disconnected;
-    if (!may_answer_yet) throw;
-    return;
-  }
+  identity_ = ask_identity(parts_.stage);
+  if (!identity_) return;
   if (const auto complaint = stage_complaint(settings_, *identity_)) throw StepFailure(*complaint);
   inspection_ = run_on(
       parts_.worker, [settings = settings_, camera = &parts_.camera, surroundings = surroundings_] {
@@ -87,21 +79,6 @@ std::optional<JobEvent> Job::poll_recovering() {
       CycleStart{findings_.journal, identity_->column, findings_.camera, findings_.disk_left_layers,
                  findings_.recalled});
   return JobEvent::agreed;
-}
-
-std::optional<JobEvent> Job::poll_homing(TimePoint now) {
-  if (!step_command_begun_ && !fresh_->interlocks.homed) {
-    commands_.begin({.action = bridge::StageAction::home}, now);
-    step_command_begun_ = true;
-    return std::nullopt;
-  }
-  if (step_command_begun_) {
-    if (!commands_.poll_done(*fresh_, now)) return std::nullopt;
-    if (!fresh_->interlocks.homed) {
-      throw StepFailure("the controller finished homing but says that it is not homed");
-    }
-  }
-  return JobEvent::step_done;
 }
 
 std::optional<JobEvent> Job::poll_conditioning(TimePoint now) {

@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "acquisition/job/capture.hpp"
-#include "acquisition/job/column_actuator.hpp"
-#include "acquisition/job/lens_actuator.hpp"
+#include "acquisition/job/focus_actuators.hpp"
 #include "acquisition/job/parking.hpp"
 #include "acquisition/log.hpp"
 
@@ -13,28 +12,16 @@ namespace biotomy::acquisition {
 
 using bridge::StageAction;
 
-namespace {
-
-std::unique_ptr<FocusActuator> actuator_of(const JobSettings& settings, const CycleParts& parts,
-                                           const CycleStart& start) {
-  if (settings.focus.actuator == FocusSettings::Actuator::column) {
-    return std::make_unique<ColumnActuator>(parts.commands, settings.limits, start.column);
-  }
-  if (!start.camera.lens) throw StepFailure("the camera has no lens to focus with");
-  return std::make_unique<LensActuator>(parts.camera, settings.camera.settings, *start.camera.lens,
-                                        parts.worker);
-}
-
-}  // namespace
-
 LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
                        const CycleStart& start)
     : settings_(settings),
       parts_(parts),
       focus_memory_(settings.focus, settings.plan.layer_thickness),
       grind_(settings, parts.commands, parts.keeper),
-      focus_(settings, actuator_of(settings, parts, start), focus_memory_, parts.camera,
-             parts.worker, parts.keeper),
+      focus_(settings,
+             make_focus_actuator(settings, start.column, start.camera,
+                                 {parts.commands, parts.camera, parts.worker}),
+             focus_memory_, parts.camera, parts.worker, parts.keeper),
       layer_(start.journal.last_committed + 1),
       attempt_(start.journal.last_attempt),
       disk_left_layers_(start.disk_left_layers) {

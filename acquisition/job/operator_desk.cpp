@@ -28,6 +28,8 @@ const char* to_string(OperatorCommand command) {
       return "calibrate-dark";
     case OperatorCommand::calibrate_white:
       return "calibrate-white";
+    case OperatorCommand::calibrate_focus:
+      return "calibrate-focus";
     case OperatorCommand::shut_down:
       return "shut_down";
   }
@@ -39,7 +41,8 @@ std::optional<OperatorCommand> operator_command(std::string_view name) {
       OperatorCommand::start,          OperatorCommand::pause,
       OperatorCommand::resume,         OperatorCommand::abort,
       OperatorCommand::acknowledge,    OperatorCommand::calibrate_flat,
-      OperatorCommand::calibrate_dark, OperatorCommand::calibrate_white};
+      OperatorCommand::calibrate_dark, OperatorCommand::calibrate_white,
+      OperatorCommand::calibrate_focus};
   for (const OperatorCommand command : kPersonal) {
     if (name == to_string(command)) return command;
   }

@@ -18,6 +18,7 @@ enum class OperatorCommand {
   calibrate_flat,
   calibrate_dark,
   calibrate_white,
+  calibrate_focus,
   shut_down,  ///< from the system, not from a person: come to rest and start nothing more
 };
 

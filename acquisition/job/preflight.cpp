@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "acquisition/job/capture.hpp"
+#include "acquisition/job/focus_actuators.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/lens_actuator.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/records/utc_time.hpp"
+#include "firmware_bridge/device_error.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -49,11 +51,7 @@ std::optional<std::string> focus_complaint(const JobSettings& settings, const ch
 
 void check_lens(const JobSettings& settings, const bridge::CameraDescription& camera) {
   if (settings.focus.actuator != FocusSettings::Actuator::lens) return;
-  if (!camera.lens) {
-    throw StepFailure("focus.actuator is \"lens\" and the camera \"" + camera.model +
-                      "\" has none that can be driven: set it to \"column\"");
-  }
-  if (const auto complaint = focus_complaint(settings, "lens", lens_limits(*camera.lens))) {
+  if (const auto complaint = focus_complaint(settings, "lens", lens_limits(lens_of(camera)))) {
     throw StepFailure(*complaint);
   }
 }
@@ -131,12 +129,27 @@ void check_clock_against(const std::string& last_event_at,
 
 }  // namespace
 
+std::optional<bridge::StageIdentity> ask_identity(bridge::Stage& stage) {
+  try {
+    return stage.identify();
+  } catch (const bridge::DeviceError& error) {
+    const bool may_answer_yet = error.kind() == bridge::DeviceError::Kind::timeout ||
+                                error.kind() == bridge::DeviceError::Kind::disconnected;
+    if (!may_answer_yet) throw;
+    return std::nullopt;
+  }
+}
+
+std::optional<std::string> watchdog_complaint(const SafetyLimits& limits,
+                                              const bridge::StageIdentity& stage) {
+  if (stage.watchdog_timeout.count() != 0 || !limits.require_watchdog) return std::nullopt;
+  return "the controller does not watch the daemon's heartbeat (watchdog_timeout is 0): set it, "
+         "or set safety.require_watchdog to false";
+}
+
 std::optional<std::string> stage_complaint(const JobSettings& settings,
                                            const bridge::StageIdentity& stage) {
-  if (stage.watchdog_timeout.count() == 0 && settings.limits.require_watchdog) {
-    return "the controller does not watch the daemon's heartbeat (watchdog_timeout is 0): set it, "
-           "or set safety.require_watchdog to false";
-  }
+  if (auto complaint = watchdog_complaint(settings.limits, stage)) return complaint;
   for (const std::int64_t layer : {std::int64_t{1}, settings.plan.layers}) {
     const bridge::Micrometres face = settings.plan.face_of(layer);
     if (!inside(face, stage.feed)) {

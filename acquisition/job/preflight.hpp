@@ -23,6 +23,15 @@ struct PreflightFindings {
   RecalledFaces recalled;  ///< of the layers that are committed
 };
 
+/// What the stage says of itself; nothing when a line lost the question or the answer, which is no
+/// reason to stop: ask again at the next tick. Throws DeviceError.
+std::optional<bridge::StageIdentity> ask_identity(bridge::Stage& stage);
+
+/// Why nothing may move by this stage: nobody would stop it if the daemon hung. Nothing when it
+/// may.
+std::optional<std::string> watchdog_complaint(const SafetyLimits& limits,
+                                              const bridge::StageIdentity& stage);
+
 /// Why this stage cannot do this job; nothing when it can.
 std::optional<std::string> stage_complaint(const JobSettings& settings,
                                            const bridge::StageIdentity& stage);

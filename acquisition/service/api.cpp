@@ -135,7 +135,7 @@ ApiResponse Api::control(const std::string& name, const ApiRequest& request) con
     return error_response(404,
                           "there is no command \"" + name +
                               "\": it is start, pause, resume, abort, acknowledge, calibrate-flat, "
-                              "calibrate-dark or calibrate-white");
+                              "calibrate-dark, calibrate-white or calibrate-focus");
   }
   if (request.method != "POST") return wrong_method(request, "POST");
   const Ruling ruling = parts_.access.command(request.client, request.authorization, name);

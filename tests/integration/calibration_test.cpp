@@ -126,5 +126,24 @@ TEST(Calibration, OfWhiteTellsTheGains) {
   EXPECT_NEAR(record.at("blue_gain").get<double>(), casting.g / casting.b, 0.05);
 }
 
+TEST(Calibration, OfTheFocusFindsTheFaceSharpAndLeavesTheRigFitForAJob) {
+  RigPlan plan;
+  plan.layers = 2;
+  SimulatedRig rig(plan);
+  rig.start_daemon();
+  ASSERT_EQ(rig.rig("acknowledge").exit_code, 0);
+  const Outcome found = calibrate(rig, "focus");
+  ASSERT_EQ(found.exit_code, 0) << found.errors;
+  EXPECT_THAT(found.output, HasSubstr("set focus.start_um = "));
+  std::ifstream file(rig.folder() / "calibration" / "focus.json");
+  const auto record = nlohmann::json::parse(file);
+  const nlohmann::json last = rig.witnessed("capture").back();
+  EXPECT_NEAR(last.at("defocus_um").get<double>(), 0.0, 10.0);
+  EXPECT_NEAR(last.at("column_um").get<double>(), record.at("plane_um").get<double>(), 5.0);
+  EXPECT_TRUE(last.at("face_in_view").get<bool>());
+  EXPECT_TRUE(rig.witnessed("grind_pass").empty());
+  do_job(rig);
+}
+
 }  // namespace
 }  // namespace biotomy::tests

@@ -1,4 +1,4 @@
-#include "acquisition/calibration/calibration_run.hpp"
+#include "acquisition/calibration/frame_calibration.hpp"
 
 #include <sstream>
 #include <utility>
@@ -61,10 +61,10 @@ const char* to_string(CalibrationKind kind) {
   return "?";
 }
 
-CalibrationRun::CalibrationRun(CalibrationKind kind, const CalibrationPlan& plan,
-                               const CameraPlan& camera, std::chrono::milliseconds lamp_warm_up,
-                               const CalibrationParts& parts, std::function<std::string()> utc_now,
-                               TimePoint now)
+FrameCalibration::FrameCalibration(CalibrationKind kind, const CalibrationPlan& plan,
+                                   const CameraPlan& camera, std::chrono::milliseconds lamp_warm_up,
+                                   const FrameCalibrationParts& parts,
+                                   std::function<std::string()> utc_now, TimePoint now)
     : kind_(kind),
       plan_(plan),
       camera_(camera),
@@ -75,7 +75,13 @@ CalibrationRun::CalibrationRun(CalibrationKind kind, const CalibrationPlan& plan
   parts_.lines.set(bridge::OutputRole::lamp, kind != CalibrationKind::dark);
 }
 
-std::optional<std::string> CalibrationRun::poll(TimePoint now) {
+std::string FrameCalibration::progress() const {
+  return std::to_string(taken_) + " of " + std::to_string(plan_.frames) + " frames are taken";
+}
+
+/// The rig is not looked at: nothing of it moves.
+std::optional<std::string> FrameCalibration::poll(const std::optional<bridge::StageStatus>&,
+                                                  TimePoint now) {
   if (record_.valid()) {
     return is_ready(record_) ? std::optional(record_.get()) : std::nullopt;
   }
@@ -93,7 +99,7 @@ std::optional<std::string> CalibrationRun::poll(TimePoint now) {
   return std::nullopt;
 }
 
-void CalibrationRun::ask_frame() {
+void FrameCalibration::ask_frame() {
   frame_ = run_on(parts_.worker, [camera = &parts_.camera, settings = camera_.settings,
                                   time_out = camera_.capture_time_out, frames = frames_] {
     if (frames->count() == 0) camera->apply(settings);
@@ -101,7 +107,7 @@ void CalibrationRun::ask_frame() {
   });
 }
 
-void CalibrationRun::ask_record() {
+void FrameCalibration::ask_record() {
   record_ = run_on(parts_.worker, [kind = kind_, plan = plan_, settings = camera_.settings,
                                    frames = frames_, taken_at = utc_now_()] {
     switch (kind) {
