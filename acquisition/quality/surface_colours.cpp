@@ -41,7 +41,7 @@ SurfaceColours::SurfaceColours(const cv::Mat& cells)
       side_(std::max(kLeastSide, parts(std::max(cells.cols, cells.rows), kMostRegions))),
       columns_(parts(cells.cols, side_)),
       rows_(parts(cells.rows, side_)),
-      sets_(kWords * static_cast<std::size_t>(columns_ * rows_)) {
+      sets_(kWords * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
   cv::parallel_for_({0, rows_}, [&](const cv::Range& rows) {
     const int end = std::min(rows.end * side_, cells.rows);
     for (int y = rows.start * side_; y < end; ++y) {

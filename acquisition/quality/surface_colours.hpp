@@ -34,7 +34,10 @@ class SurfaceColours {
 
   std::uint32_t* region(int x, int y) { return sets_.data() + kWords * index(x, y); }
   const std::uint32_t* region(int x, int y) const { return sets_.data() + kWords * index(x, y); }
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * columns_ + x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(x);
+  }
 
   cv::Size frame_;
   int side_ = 1;  ///< of a region, cells
