@@ -45,6 +45,9 @@ class Autofocus {
   void arrived();                                             ///< answers what does not measure
   void measured(std::shared_ptr<const FrameMeasures> frame);  ///< answers what measures
 
+  /// Ends the search without a focus, for a reason that the caller has.
+  void give_up(const std::string& why);
+
   struct Found {
     bridge::Micrometres position{};  ///< where the last frame, which confirmed it, was taken
     /// Of the bracket that would suit this curve: its ends lose a quarter of the energy, enough to
@@ -72,7 +75,6 @@ class Autofocus {
   void confirm(const Candidate& candidate);
   void end_confirmation(std::shared_ptr<const FrameMeasures> frame);
   void out_of_brackets(const std::string& why);
-  void give_up(const std::string& why);
 
   FocusSettings settings_;
   SearchPlan plan_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "firmware_bridge/micrometres.hpp"
 
 namespace biotomy::acquisition {
@@ -16,7 +18,8 @@ struct FocusSettings {
   bridge::Micrometres reach{1000.0};         ///< no search leaves the predicted position by more
   bridge::Micrometres largest_change{40.0};  ///< of the focus against what was predicted, a layer
   bridge::Micrometres backlash{50.0};        ///< every position is approached from below by so much
-  int every_layers = 10;                     ///< a search at the latest after so many layers
+  std::chrono::milliseconds time_limit{300000};  ///< of one search
+  int every_layers = 10;                         ///< a search at the latest after so many layers
   double search_below_ratio = 0.95;  ///< and when the sharpness fell below this part of the peak
 };
 

@@ -1,6 +1,7 @@
 #include "acquisition/job/focus_search.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "acquisition/job/capture.hpp"
@@ -21,11 +22,17 @@ FocusSearch::FocusSearch(const JobSettings& settings, SearchPlan plan, const Sea
     : settings_(settings),
       plan_(within(plan, parts.actuator.limits())),
       parts_(parts),
+      begun_(now),
       autofocus_(settings.focus, plan_, parts.actuator.limits()) {
   ask_next(now);
 }
 
 bool FocusSearch::ask_next(TimePoint now) {
+  const auto limit = settings_.focus.time_limit;
+  if (autofocus_.next() && now - begun_ > limit) {
+    autofocus_.give_up("the search took longer than focus.time_limit_ms, " +
+                       std::to_string(limit.count()) + " ms");
+  }
   const std::optional<Autofocus::Request> request = autofocus_.next();
   if (!request) return false;
   stands_at_ = request->position;

@@ -57,6 +57,7 @@ class FocusSearch {
   const JobSettings& settings_;
   SearchPlan plan_;
   SearchParts parts_;
+  TimePoint begun_;
   Autofocus autofocus_;
   bridge::Micrometres stands_at_{};
   std::vector<FocusRow::Point> points_;

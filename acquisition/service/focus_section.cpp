@@ -61,6 +61,8 @@ FocusSettings read_focus(const CheckedTable& table, Micrometres pixel) {
                 "field");
   focus.backlash = length(table, "backlash_um", focus.backlash,
                           "positions of a search are approached from below by so much", 0.0);
+  focus.time_limit = duration(table, "time_limit_ms", focus.time_limit,
+                              "a search that takes longer is given up", 1000);
   focus.every_layers = count(table, "every_layers", focus.every_layers, 1, 1000000,
                              "a search at the latest after so many layers, sooner while the focus "
                              "is not where it was expected; between, it follows the face");

@@ -1,22 +1,25 @@
 // What the parts of the judgement of a frame cost, with Google Benchmark: to measure its tiles, to
-// find repeated rows, to take the print of a face and of its surface, to compare two of either. The
-// frame has 20 megapixels of noisy texture; items are its pixels.
+// find repeated rows, to take the print of a face and of its surface, to compare two of either; and
+// what the whole of it costs. The frame has 20 megapixels of noisy texture; items are its pixels.
 //
 //   quality_bench [--benchmark_filter=compare] …
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "acquisition/calibration/field_correction.hpp"
+#include "acquisition/quality/consecutive_frames.hpp"
 #include "acquisition/quality/face_change.hpp"
 #include "acquisition/quality/face_print.hpp"
 #include "acquisition/quality/frame_measures.hpp"
 #include "acquisition/quality/frame_rows.hpp"
 #include "acquisition/quality/light_judgement.hpp"
+#include "acquisition/quality/sharpness_comparison.hpp"
 #include "acquisition/quality/surface_defects.hpp"
 #include "acquisition/quality/thumbnail.hpp"
 
@@ -151,6 +154,47 @@ void surface_defects(benchmark::State& state, std::uint64_t depth) {
   count_pixels(state);
 }
 
+/// How sharp a frame is against three.
+void sharpness_of(benchmark::State& state) {
+  const auto now = measure_frame(frame(9, 3, CV_8UC3));
+  const auto before = std::make_shared<const FrameMeasures>(measure_frame(frame(1, 2, CV_8UC3)));
+  const std::vector<std::shared_ptr<const FrameMeasures>> references(3, before);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(compare_sharpness(now, references, 0.96));
+  }
+  count_pixels(state);
+}
+
+enum class Content { texture, bare, specks };
+
+cv::Mat content(Content content, std::uint64_t depth, std::uint64_t exposure, int type) {
+  cv::Mat image = frame(depth, exposure, type);
+  if (content == Content::texture) return image;
+  const double full = type == CV_16UC3 ? 65535.0 : 255.0;
+  cv::Mat noise = image - frame(depth, exposure + 100, type);
+  image = 0.2 * noise + cv::Scalar(0.25, 0.5, 0.35) * full;
+  cv::RNG random(depth);
+  for (int i = 0; content == Content::specks && i < 5000; ++i) {
+    cv::circle(image, {random.uniform(0, kWidth), random.uniform(0, kHeight)}, 12,
+               cv::Scalar(random.uniform(0.0, full), random.uniform(0.0, full), 0.0), cv::FILLED);
+  }
+  return image;
+}
+
+/// All of the judgement of a frame, after three layers.
+void assess_frame(benchmark::State& state, Content what, int type) {
+  ConsecutiveFrames layers{QualityThresholds{}};
+  for (std::uint64_t depth = 1; depth <= 3; ++depth) {
+    layers.accept(layers.judge(content(what, depth, depth, type)));
+  }
+  const cv::Mat image = content(what, 4, 4, type);
+  for (auto _ : state) {
+    ConsecutiveFrames again = layers;
+    benchmark::DoNotOptimize(again.judge(image));
+  }
+  count_pixels(state);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -175,6 +219,15 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("shift/other", shift, 9)->UseRealTime();
   benchmark::RegisterBenchmark("surface_defects/same", surface_defects, 1)->UseRealTime();
   benchmark::RegisterBenchmark("surface_defects/other", surface_defects, 9)->UseRealTime();
+  benchmark::RegisterBenchmark("sharpness", sharpness_of)->UseRealTime();
+  benchmark::RegisterBenchmark("assess/8/texture", assess_frame, Content::texture, CV_8UC3)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("assess/8/bare", assess_frame, Content::bare, CV_8UC3)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("assess/8/specks", assess_frame, Content::specks, CV_8UC3)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("assess/16/texture", assess_frame, Content::texture, CV_16UC3)
+      ->UseRealTime();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;

@@ -72,6 +72,16 @@ TEST(FocusStep, StopsAJobWhoseFirstSearchFindsNothing) {
   EXPECT_LE(bench.camera.captures, 1 + 9 * 6) << "a search is bounded";
 }
 
+TEST(FocusStep, GivesUpASearchThatTakesTooLong) {
+  JobBench bench;
+  bench.settings.focus.time_limit = std::chrono::milliseconds(1);
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::faulted, 5000));
+  EXPECT_THAT(bench.alarm(), HasSubstr("the search took longer than focus.time_limit_ms, 1 ms"));
+  EXPECT_LE(bench.camera.captures, 2) << "the camera's test, and one of the search";
+}
+
 TEST(LensActuator, TakesDioptresForTheReciprocalOfTheDistance) {
   EXPECT_NEAR(dioptres_at({100000.0}), 10.0, 1e-12);
   EXPECT_NEAR(distance_of(4.0).value, 250000.0, 1e-9);
