@@ -64,6 +64,7 @@ struct QualityThresholds {
   double minimum_sharpness_ratio = 0.96;
   double minimum_sharpness_to_record = 0.75;  ///< after a search of the same layer
   double minimum_sharpness_along_axis = 0.97;
+  double minimum_fine_contrast = 0.7;       ///< of what the sharpness is compared with
   double minimum_brightness = 0.05;         ///< mean, of full scale
   double maximum_brightness = 0.95;         ///< mean, of full scale
   double maximum_clipped_fraction = 0.05;   ///< of pixels with a colour at full scale

@@ -37,6 +37,9 @@ constexpr std::size_t kLeastTiles = 4;
 constexpr double kContentChange = 0.4;
 constexpr double kLeastLikeness = 0.1;
 
+/// A tile whose colour changed by this part counts for six tenths in the comparison of contrast.
+constexpr double kColourChange = 0.04;
+
 /// A pair whose finer energy noise alone makes fluctuate by more than this part says nothing: where
 /// there is noise alone, none of a hundred tiles shows three standard deviations of it.
 constexpr double kMostFluctuation = 1.0 / 3.0;
@@ -127,15 +130,40 @@ std::optional<double> change(const TileMeasures& tile, References references, st
   return std::log(std::max(quotient(tile, pair, axes) / then, kLeastQuotient));
 }
 
+/// A band's energy relative to the brightness: neither lamp nor exposure change it.
+double relative_energy(const TileMeasures& tile, DetailEnergy TileMeasures::*band) {
+  const double brightness = std::max(tile.brightness(), kLeastEnergy);
+  return std::max((tile.*band).sum(), kLeastEnergy) / (brightness * brightness);
+}
+
+double change_of_energy(const TileMeasures& tile, References references, std::size_t number,
+                        DetailEnergy TileMeasures::*band) {
+  return std::log(relative_energy(tile, band) /
+                  typical(references, number, [band](const TileMeasures& reference) {
+                    return relative_energy(reference, band);
+                  }));
+}
+
+/// 1 for no change, six tenths for one of `scale`.
+double likeness_of(double change, double scale) {
+  return std::exp(-0.5 * std::pow(change / scale, 2));
+}
+
 /// How alike a tile's content is to the references': 1 is the same. By the contrast of the coarse
 /// detail, which a little blur leaves alone.
 double likeness(const TileMeasures& tile, References references, std::size_t number) {
-  const auto contrast = [](const TileMeasures& of) {
-    const double brightness = std::max(of.brightness(), kLeastEnergy);
-    return std::max(of.coarse.sum(), kLeastEnergy) / (brightness * brightness);
-  };
-  const double changed = std::log(contrast(tile) / typical(references, number, contrast));
-  return std::exp(-0.5 * std::pow(changed / kContentChange, 2));
+  return likeness_of(change_of_energy(tile, references, number, &TileMeasures::coarse),
+                     kContentChange);
+}
+
+/// By the mean colours, which no blur changes.
+double likeness_of_colours(const TileMeasures& tile, References references, std::size_t number) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < tile.mean.size(); ++c) {
+    const auto mean = [c](const TileMeasures& of) { return std::max(of.mean[c], kLeastEnergy); };
+    most = std::max(most, std::fabs(std::log(mean(tile) / typical(references, number, mean))));
+  }
+  return likeness_of(most, kColourChange);
 }
 
 /// The inverse variance of the change of a pair's quotient in a tile of so many pixels; 0 when
@@ -188,6 +216,12 @@ TileChanges changes_of(const FrameMeasures& frame, References references, const 
   return changes;
 }
 
+bool comparable(const FrameMeasures& frame, References references) {
+  return !references.empty() && std::ranges::all_of(references, [&](const auto& reference) {
+    return reference->grid == frame.grid;
+  });
+}
+
 /// The mean of the pairs' medians, each over its effect, by the inverse of their variances.
 class Combination {
  public:
@@ -226,10 +260,7 @@ double sharpness(const FrameMeasures& frame) {
 
 std::optional<SharpnessComparison> compare_sharpness(const FrameMeasures& frame,
                                                      References references, double limit) {
-  if (references.empty()) return std::nullopt;
-  for (const auto& reference : references) {
-    if (reference->grid != frame.grid) return std::nullopt;
-  }
+  if (!comparable(frame, references)) return std::nullopt;
   Combination ratio;
   Combination x;
   Combination y;
@@ -253,6 +284,23 @@ std::optional<SharpnessComparison> compare_sharpness(const FrameMeasures& frame,
   comparison.anisotropy.value =
       std::min(comparison.anisotropy.value, 1.0 / comparison.anisotropy.value);
   return comparison;
+}
+
+std::optional<double> compare_contrast(const FrameMeasures& frame, References references) {
+  if (!comparable(frame, references)) return std::nullopt;
+  std::vector<Weighted> changes;
+  for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
+    const TileMeasures& tile = frame.tiles[i];
+    const double alike = likeness_of_colours(tile, references, i);
+    const int pixels = frame.grid.tile(static_cast<int>(i)).area();
+    const double certain = certainty(references, i, kPairs[1], pixels);
+    if (alike < kLeastLikeness || certain <= 0.0) continue;
+    changes.push_back(
+        {change_of_energy(tile, references, i, &TileMeasures::fine), alike * certain});
+  }
+  if (changes.size() < kLeastTiles) return std::nullopt;
+  // Of energies, and contrast is an amplitude.
+  return std::exp(0.5 * weighted_median(std::move(changes)));
 }
 
 }  // namespace biotomy::acquisition

@@ -52,4 +52,11 @@ std::optional<SharpnessComparison> compare_sharpness(
     const FrameMeasures& frame, std::span<const std::shared_ptr<const FrameMeasures>> references,
     double limit);
 
+/// What is left of the contrast of fine detail, relative to the references: the median over the
+/// tiles whose mean colour is the same, which no blur changes. Nothing with fewer than four of
+/// them. It feels the content more than quotients do; but those compare what is left of the detail,
+/// and after much blur that is what is left of the noise.
+std::optional<double> compare_contrast(
+    const FrameMeasures& frame, std::span<const std::shared_ptr<const FrameMeasures>> references);
+
 }  // namespace biotomy::acquisition

@@ -1,7 +1,9 @@
 #include "acquisition/quality/sharpness_judgement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "acquisition/quality/sharpness_comparison.hpp"
@@ -17,8 +19,18 @@ constexpr double kDoubtOfAxis = 1.0;
 /// on the twin's layers.
 constexpr double kContent = 0.010;
 
-constexpr double kSmeared = 0.95;  ///< one axis' ratio over the other's, below: it moved
+/// A movement blurs one axis and leaves the other about as it was: the one's ratio over the other's
+/// is below the first, the other's is above the second.
+constexpr double kSmeared = 0.95;
+constexpr double kLeftAlone = 0.85;
+
 constexpr const char* kBlurred = "blurred";
+constexpr const char* kLastLayers = "the last layers'";
+
+bool is_smeared(const SharpnessComparison& found) {
+  return found.anisotropy.value < kSmeared &&
+         std::max(found.along_x.value, found.along_y.value) > kLeftAlone;
+}
 
 double lowered(double limit, double error, const FrameMeasures& frame) {
   const double megapixels = 1e-6 * static_cast<double>(frame.grid.frame.area());
@@ -49,10 +61,21 @@ void judge_weaker_axis(const SharpnessComparison& found, const std::string& to, 
                      smeared ? "smeared" : kBlurred, reason.c_str());
 }
 
+using References = std::span<const SharpnessRecord::Frame>;
+
+void judge_contrast(References references, const std::string& to,
+                    const QualityThresholds& thresholds, Judgement& judgement) {
+  const auto contrast = compare_contrast(*judgement.result().measures, references);
+  if (!contrast) return;
+  const std::string reason = "the contrast of fine detail is %.3f of " + to + ", below %.3f";
+  judgement.at_least("fine_contrast", *contrast, thresholds.minimum_fine_contrast, kBlurred,
+                     reason.c_str());
+}
+
 /// What the frame is most likely comes first: it gives the reason.
 void judge_ratio(const SharpnessComparison& found, const std::string& to,
                  const QualityThresholds& thresholds, Judgement& judgement) {
-  const bool smeared = found.anisotropy.value < kSmeared;
+  const bool smeared = is_smeared(found);
   if (smeared) judge_weaker_axis(found, to, smeared, thresholds, judgement);
   judge_both_axes(found, to, thresholds, judgement);
   if (!smeared) judge_weaker_axis(found, to, smeared, thresholds, judgement);
@@ -67,14 +90,13 @@ void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
   result.sharpness = sharpness(frame);
 
   const double limit = thresholds.minimum_sharpness_ratio;
-  std::optional<SharpnessComparison> to_peak;
-  if (record.peak()) to_peak = compare_sharpness(frame, {&record.peak(), 1}, limit);
-  std::optional<SharpnessComparison> to_record;
-  if (!record.recent().empty()) to_record = compare_sharpness(frame, record.recent(), limit);
+  const References peak(&record.peak(), record.peak() ? 1 : 0);
+  const References recent = record.recent();
+  const auto to_peak = compare_sharpness(frame, peak, limit);
+  const auto to_record = compare_sharpness(frame, recent, limit);
   if (to_peak) result.sharpness_to_peak = to_peak->ratio.value;
 
-  const bool searched_here = to_peak && record.peak_layer() == layer;
-  if (searched_here) {
+  if (to_peak && record.peak_layer() == layer) {
     judge_ratio(*to_peak, "this layer's focus peak", thresholds, judgement);
     if (to_record) {
       judgement.at_least(
@@ -85,11 +107,17 @@ void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
           "was searched: look at lens, column and face");
     }
   } else if (to_record) {
-    judge_ratio(*to_record, "the last layers'", thresholds, judgement);
+    judge_ratio(*to_record, kLastLayers, thresholds, judgement);
   } else if (to_peak) {
     judge_ratio(*to_peak, "the last focus peak", thresholds, judgement);
   } else {
     judgement.leave_open("nothing to compare the sharpness with");
+  }
+  // A search that ended far off has a peak without contrast too: the record comes first.
+  if (recent.empty()) {
+    judge_contrast(peak, "the last focus peak", thresholds, judgement);
+  } else {
+    judge_contrast(recent, kLastLayers, thresholds, judgement);
   }
 }
 

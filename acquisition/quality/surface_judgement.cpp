@@ -10,7 +10,7 @@ namespace {
 
 /// Where tissue comes up over larger areas some of it has, in small places, colours of its own:
 /// this part of the area.
-constexpr double kNewPerArrived = 0.08;
+constexpr double kNewPerArrived = 0.04;
 
 void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
                  const QualityThresholds& thresholds, Judgement& judgement) {

@@ -286,6 +286,10 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
   thresholds.minimum_sharpness_along_axis = number(
       table, "minimum_sharpness_along_axis", thresholds.minimum_sharpness_along_axis, "", 0.0, 10.0,
       "likewise as minimum_sharpness_ratio, along the less sharp of the two axes");
+  thresholds.minimum_fine_contrast = number(
+      table, "minimum_fine_contrast", thresholds.minimum_fine_contrast, "", 0.0, 10.0,
+      "contrast of a frame's fine detail, where its colour is the same, relative to what its "
+      "sharpness is compared with: for a blur that leaves nothing but noise");
   thresholds.minimum_brightness =
       number(table, "minimum_brightness", thresholds.minimum_brightness, "", 0.0, 1.0,
              "mean brightness, of full scale; below it the frame is black");

@@ -6,7 +6,7 @@ namespace biotomy::tests {
 
 std::vector<SequenceSettings> labelled_set(Seeds seeds, int sequences) {
   constexpr std::uint64_t kFirstTrainSeed = 1000;
-  constexpr std::uint64_t kFirstTestSeed = 900000;
+  constexpr std::uint64_t kFirstTestSeed = 1300000;
   std::vector<SequenceSettings> set(static_cast<std::size_t>(sequences));
   for (std::size_t i = 0; i < set.size(); ++i) {
     SequenceSettings& s = set[i];

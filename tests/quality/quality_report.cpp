@@ -1,7 +1,8 @@
 // What the daemon's assessment makes of the labelled set, with its default thresholds: prints the
 // tables of docs/quality.md, or JSON. Ends with 1 when a goal is missed.
 //
-//   quality_report [--seeds train|test] [--sequences 36] [--threads 2] [--json] [--wrong]
+//   quality_report [--seeds train|test] [--sequences 36] [--width 1600] [--threads 2]
+//                  [--json] [--wrong]
 
 #include <algorithm>
 #include <cstdio>
@@ -23,6 +24,7 @@ using namespace biotomy::tests;
 struct Options {
   std::string seeds = "test";
   int sequences = 36;
+  int width = SequenceSettings{}.width;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
   bool as_json = false;
   bool wrong = false;
@@ -31,8 +33,11 @@ struct Options {
 int report(const Options& options) {
   // Sequences share the cores, and an assessment's time is that of one core.
   cv::setNumThreads(1);
-  const auto set =
-      labelled_set(options.seeds == "train" ? Seeds::train : Seeds::test, options.sequences);
+  auto set = labelled_set(options.seeds == "train" ? Seeds::train : Seeds::test, options.sequences);
+  for (SequenceSettings& settings : set) {
+    settings.width = options.width;
+    settings.height = options.width * 3 / 4;
+  }
   const bool watched = isatty(STDERR_FILENO) != 0;
   std::size_t done = 0;
   const std::vector<JudgedFrame> frames = judge_set(set, options.threads, [&] {
@@ -56,6 +61,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--sequences", options.sequences, "Of 30 layers each, about 105 frames")
       ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_option("--width", options.width, "Of the frames, pixels; they are 4 : 3")
+      ->check(CLI::Range(320, 8000))
       ->capture_default_str();
   app.add_option("--threads", options.threads, "Sequences at a time")
       ->check(CLI::Range(1, 64))

@@ -30,7 +30,7 @@ TEST(Assessment, AcceptsAFrameAsSharpAsTheFocusPeak) {
   const Assessment good = Judged().assessment();
   EXPECT_EQ(good.verdict, Verdict::accepted);
   EXPECT_NEAR(good.sharpness_to_peak.value(), 1.0, 1e-9);
-  EXPECT_EQ(good.metrics.size(), 10U);  // with what is learnt of the casting material
+  EXPECT_EQ(good.metrics.size(), 11U);  // with what is learnt of the casting material
 }
 
 TEST(Assessment, RejectsABlurredFrameAndSaysHowMuch) {

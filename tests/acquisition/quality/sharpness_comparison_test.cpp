@@ -81,6 +81,29 @@ TEST(SharpnessComparison, TellsASmearFromABlur) {
   EXPECT_GT(compared(measured(blurred), {reference}).anisotropy.value, 0.95);
 }
 
+TEST(SharpnessComparison, OfContrastSeesABlurThatLeavesNothingButNoise) {
+  PhantomPhotographer camera(kJoint);
+  const cv::Mat sharp = camera.photograph(0.0);
+  cv::Mat blurred;
+  cv::GaussianBlur(sharp, blurred, {}, 8.0);
+  cv::Mat noise(sharp.size(), CV_16SC3);
+  cv::RNG(3).fill(noise, cv::RNG::NORMAL, 0.0, 3.0);
+  cv::add(blurred, noise, blurred, cv::noArray(), CV_8UC3);
+  const std::vector<Frame> before{measured(sharp)};
+  EXPECT_LT(compare_contrast(*measured(blurred), before).value(), 0.3);
+  EXPECT_NEAR(compare_contrast(*measured(sharp * 0.97), before).value(), 1.0, 0.02)
+      << "the lamp makes no difference";
+  EXPECT_NEAR(compare_contrast(*measured(camera.photograph(20.0)), before).value(), 1.0, 0.1);
+}
+
+TEST(SharpnessComparison, OfContrastNeedsTilesOfTheSameColour) {
+  PhantomPhotographer camera(kJoint);
+  const cv::Mat image = camera.photograph(0.0);
+  cv::Mat other;
+  cv::cvtColor(image, other, cv::COLOR_RGB2BGR);
+  EXPECT_FALSE(compare_contrast(*measured(other), std::vector{measured(image)}));
+}
+
 TEST(SharpnessComparison, NeedsDetail) {
   cv::Mat bare(240, 240, CV_8UC3, cv::Scalar(60, 120, 80));
   cv::Mat noise(bare.size(), CV_16SC3);
