@@ -12,6 +12,9 @@ namespace {
 /// this part of the area.
 constexpr double kNewPerArrived = 0.04;
 
+/// So many cells of a thumbnail have a colour of their own by chance.
+constexpr double kCellsByChance = 4.0;
+
 void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
                  const QualityThresholds& thresholds, Judgement& judgement) {
   const std::optional<Shift> shift = measure_shift(now.border, surfaces.surface()->border);
@@ -46,8 +49,9 @@ void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
   judgement.result().arrived = found.arrived;
   // It goes on coming up in the next layer, be it in small places alone.
   const double arrives = std::max(found.arrived, surfaces.arrived());
-  judgement.at_most("debris", found.debris, thresholds.maximum_debris + kNewPerArrived * arrives,
-                    "debris",
+  const double by_chance = kCellsByChance / static_cast<double>(now.thumbnail.total());
+  judgement.at_most("debris", found.debris,
+                    thresholds.maximum_debris + kNewPerArrived * arrives + by_chance, "debris",
                     "%.4f of the frame has colours that the layers before have nowhere near, more "
                     "than %.4f: debris on the face");
 }
