@@ -23,6 +23,17 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
 }
 
+/// Runs of very small frames are about something else than quality: in so few pixels and cells
+/// chance is greater than any limit.
+std::string quality_settings(const RigPlan& plan) {
+  constexpr int kFewestPixels = 19200;
+  if (plan.width * plan.height >= kFewestPixels) return "";
+  return "[quality]\nminimum_sharpness_ratio = 0\nminimum_sharpness_along_axis = 0\n"
+         "minimum_sharpness_to_record = 0\nminimum_fine_contrast = 0\nmaximum_debris = 1\n"
+         "maximum_frost = 1\nmaximum_glare = 1\nmaximum_unevenness = 10\n"
+         "maximum_colour_cast = 10\nmaximum_brightness_change = 10\n";
+}
+
 }  // namespace
 
 SimulatedRig::SimulatedRig(const RigPlan& plan) : plan_(plan), stage_(plan.listen) {
@@ -64,8 +75,8 @@ void SimulatedRig::write_daemon_configuration() const {
                  std::to_string(plan_.pixel_um) +
                  "]\nfirst_face_um = " + std::to_string(plan_.first_face_um) +
                  "\nclear_ms = 1500\nsettle_ms = " + std::to_string(plan_.settle_ms) +
-                 "\nlamp_warm_up_ms = " + std::to_string(plan_.lamp_warm_up_ms) +
-                 "\n[focus]\nstart_um = " +
+                 "\nlamp_warm_up_ms = " + std::to_string(plan_.lamp_warm_up_ms) + "\n" +
+                 quality_settings(plan_) + "[focus]\nstart_um = " +
                  std::to_string(plan_.first_face_um - kColumnOffsetUm + kFocusGuessErrorUm) +
                  "\n[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = " +
                  std::to_string(plan_.tick_ms) + "\n" + plan_.daemon_settings);
