@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "firmware_bridge/micrometres.hpp"
@@ -29,6 +30,9 @@ class FocusActuator {
 
   /// True once it stands at its target. Throws like `move_to`, also when it stands elsewhere.
   virtual bool settled(const bridge::StageStatus& status, TimePoint now) = 0;
+
+  /// Where it stands as the device reports it; nothing from a device that does not.
+  virtual std::optional<bridge::Micrometres> reported(const bridge::StageStatus& status) const = 0;
 
   /// A position in the actuator's own unit, for people: "612.5 µm", "4.08 dioptres".
   virtual std::string describe(bridge::Micrometres position) const = 0;

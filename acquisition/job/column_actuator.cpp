@@ -26,6 +26,11 @@ bool ColumnActuator::settled(const bridge::StageStatus& status, TimePoint now) {
   return true;
 }
 
+std::optional<bridge::Micrometres> ColumnActuator::reported(
+    const bridge::StageStatus& status) const {
+  return status.column;
+}
+
 std::string ColumnActuator::describe(bridge::Micrometres position) const {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.1f µm", position.value);

@@ -14,6 +14,7 @@ class ColumnActuator : public FocusActuator {
   bridge::AxisLimits limits() const override { return column_; }
   void move_to(bridge::Micrometres target, TimePoint now) override;
   bool settled(const bridge::StageStatus& status, TimePoint now) override;
+  std::optional<bridge::Micrometres> reported(const bridge::StageStatus& status) const override;
   std::string describe(bridge::Micrometres position) const override;
 
  private:

@@ -49,14 +49,15 @@ bool FocusSearch::poll(const bridge::StageStatus& status, TimePoint now) {
   }
   if (!parts_.actuator.settled(status, now)) return false;
   if (autofocus_.next()->measure) {
-    take_frame();
+    take_frame(status);
     return false;
   }
   autofocus_.arrived();
   return !ask_next(now);
 }
 
-void FocusSearch::take_frame() {
+void FocusSearch::take_frame(const bridge::StageStatus& status) {
+  measured_at_ = parts_.actuator.reported(status).value_or(autofocus_.next()->position);
   measured_ = run_on(parts_.worker, [camera = &parts_.camera,
                                      time_out = settings_.camera.capture_time_out] {
     return std::make_shared<const FrameMeasures>(measure_frame(capture(*camera, time_out).image));
@@ -65,7 +66,7 @@ void FocusSearch::take_frame() {
 
 void FocusSearch::take_measures() {
   std::shared_ptr<const FrameMeasures> measures = measured_.get();
-  points_.push_back({autofocus_.next()->position, sharpness(*measures)});
+  points_.push_back({measured_at_, sharpness(*measures)});
   autofocus_.measured(std::move(measures));
 }
 

@@ -51,7 +51,7 @@ class FocusSearch {
 
  private:
   bool ask_next(TimePoint now);
-  void take_frame();
+  void take_frame(const bridge::StageStatus& status);
   void take_measures();
 
   const JobSettings& settings_;
@@ -60,6 +60,7 @@ class FocusSearch {
   TimePoint begun_;
   Autofocus autofocus_;
   bridge::Micrometres stands_at_{};
+  bridge::Micrometres measured_at_{};
   std::vector<FocusRow::Point> points_;
   std::future<std::shared_ptr<const FrameMeasures>> measured_;
 };

@@ -41,6 +41,10 @@ bool LensActuator::settled(const bridge::StageStatus&, TimePoint) {
   return true;
 }
 
+std::optional<bridge::Micrometres> LensActuator::reported(const bridge::StageStatus&) const {
+  return std::nullopt;
+}
+
 std::string LensActuator::describe(bridge::Micrometres position) const {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.3f dioptres", dioptres_at(position));

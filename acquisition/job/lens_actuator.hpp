@@ -30,6 +30,7 @@ class LensActuator : public FocusActuator {
 
   /// The camera itself waits, when it takes the next frame, until its lens has moved.
   bool settled(const bridge::StageStatus& status, TimePoint now) override;
+  std::optional<bridge::Micrometres> reported(const bridge::StageStatus& status) const override;
   std::string describe(bridge::Micrometres position) const override;
 
  private:
