@@ -71,7 +71,7 @@ std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
   try {
     reconstruct::create_folders_durably(folder);
     const std::vector<std::byte> bytes = reconstruct::encode_tiff(frame.mean, {});
-    const std::string sha256 = reconstruct::sha256(bytes);
+    std::string sha256 = reconstruct::sha256(bytes);
     const std::string name = file_name(kind, sha256);
     reconstruct::write_durably(folder / name, bytes);
     reconstruct::write_durably(record_path(folder, kind),

@@ -33,6 +33,7 @@ Curve curve_of(std::span<const BracketFrame> bracket) {
   Curve curve;
   curve.tiles = telling_tiles(frames);
   std::vector<Detail> along;
+  along.reserve(frames.size());
   for (const std::vector<Detail>& tiles : frames) along.push_back(sum(tiles, curve.tiles));
   curve.points = focus_curve(along);
   if (curve.points.empty()) return curve;

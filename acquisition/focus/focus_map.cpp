@@ -42,6 +42,7 @@ std::vector<TilePeak> peaks_of(std::span<const BracketFrame> bracket) {
   std::vector<TilePeak> peaks;
   for (const std::size_t number : telling_tiles(details)) {
     std::vector<Detail> along;
+    along.reserve(details.size());
     for (const auto& frame : details) along.push_back(frame[number]);
     const std::optional<ParabolaFit> fit = fit_parabola(focus_curve(along));
     if (!fit) continue;
@@ -73,6 +74,7 @@ Plane fit_plane(const std::vector<TilePeak>& tiles) {
 /// one.
 double scatter_about(const Plane& plane, const std::vector<TilePeak>& tiles) {
   std::vector<double> distances;
+  distances.reserve(tiles.size());
   for (const TilePeak& tile : tiles) {
     distances.push_back(std::abs(tile.peak - plane.at(tile)) / tile.error);
   }
@@ -94,6 +96,7 @@ void weigh(const Plane& plane, double scatter, std::vector<TilePeak>& tiles) {
 /// pull it.
 Plane level_plane(const std::vector<TilePeak>& tiles) {
   std::vector<double> peaks;
+  peaks.reserve(tiles.size());
   for (const TilePeak& tile : tiles) peaks.push_back(tile.peak);
   const auto middle = peaks.begin() + static_cast<std::ptrdiff_t>(peaks.size() / 2);
   std::ranges::nth_element(peaks, middle);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -56,7 +57,7 @@ void add_colours(const Sample* pixels, const float* brightness, int width, Colou
   std::uint64_t counted = 0;
   for (int x = 0; x < width; ++x, pixels += 3) {
     const std::uint32_t counts = brightness[x] == brightness[x] ? 1U : 0U;
-    for (std::size_t c = 0; c < 3; ++c) sums[c] += counts * static_cast<std::uint32_t>(pixels[c]);
+    for (std::size_t c = 0; c < 3; ++c) sums[c] += static_cast<std::uint64_t>(counts) * pixels[c];
     counted += counts;
   }
   for (std::size_t c = 0; c < 3; ++c) {
@@ -92,7 +93,8 @@ void halve(const Plane& from, Plane& to) {
     const float* lower = from.row(2 * y + 1);
     float* out = to.row(y);
     for (int x = 0; x < to.width; ++x) {
-      out[x] = 0.25F * (upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1]);
+      const std::ptrdiff_t left = 2L * x;
+      out[x] = 0.25F * (upper[left] + upper[left + 1] + lower[left] + lower[left + 1]);
     }
   }
 }

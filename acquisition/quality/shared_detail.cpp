@@ -73,7 +73,8 @@ cv::Mat halved(const cv::Mat& plane) {
     const auto* lower = plane.ptr<float>(2 * y + 1);
     auto* out = half.ptr<float>(y);
     for (int x = 0; x < half.cols; ++x) {
-      out[x] = 0.25F * (upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1]);
+      const std::ptrdiff_t left = 2L * x;
+      out[x] = 0.25F * (upper[left] + upper[left + 1] + lower[left] + lower[left + 1]);
     }
   }
   return half;

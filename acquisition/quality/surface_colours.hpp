@@ -28,7 +28,7 @@ class SurfaceColours {
   /// A bit for each step of B, a word for each pair of steps of R and G.
   static constexpr int kSteps = 32;
   static constexpr int kStepBits = 5;
-  static constexpr std::size_t kWords = kSteps * kSteps;
+  static constexpr std::size_t kWords = std::size_t{kSteps} * kSteps;
   static std::size_t word_of(const cv::Vec3b& cell);
   static std::uint32_t bit_of(const cv::Vec3b& cell);
 

@@ -66,8 +66,9 @@ void FacePainter::strew(const Block& block, const Displacement& displacement) {
   face_.copyTo(picture_);
   constexpr double kSubpixels = 1 << kSubpixelBits;
   for (const Speck& speck : block.debris()) {
-    const double x = view_.width * speck.x + displacement.x_um / view_.pixel_um;
-    const double y = view_.height * speck.y + displacement.y_um / view_.pixel_um;
+    const double x = static_cast<float>(view_.width) * speck.x + displacement.x_um / view_.pixel_um;
+    const double y =
+        static_cast<float>(view_.height) * speck.y + displacement.y_um / view_.pixel_um;
     const cv::Point centre(static_cast<int>(std::lround(kSubpixels * x)),
                            static_cast<int>(std::lround(kSubpixels * y)));
     const int radius = static_cast<int>(std::lround(speck.radius_um / view_.pixel_um * kSubpixels));
