@@ -43,6 +43,7 @@ void calibrate(const Options& options, const std::string& kind) {
     }
     if (progress == "failed") throw std::runtime_error(sentence);
     if (terminal) std::cerr << sentence << std::flush;
+    // The daemon limits each step of a calibration, and a daemon that is gone ends this by itself.
     std::this_thread::sleep_for(kLook);
   }
 }

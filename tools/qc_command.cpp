@@ -20,7 +20,7 @@
 #include "tools/command.hpp"
 #include "tools/image_list.hpp"
 #include "tools/progress_bar.hpp"
-#include "tools/quality_report.hpp"
+#include "tools/qc_report.hpp"
 #include "tools/sweep_report.hpp"
 
 namespace biotomy::tools {
@@ -78,8 +78,7 @@ LayerRange parse_range(const std::string& text) {
   return {*first, *last};
 }
 
-void judge_images(const Options& options, const std::vector<fs::path>& files,
-                  QualityReport& report) {
+void judge_images(const Options& options, const std::vector<fs::path>& files, QcReport& report) {
   ConsecutiveFrames frames(thresholds_of(options));
   ProgressBar bar("Judging", "frames");
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -111,7 +110,7 @@ LayerRange layers_to_judge(const Options& options, const SampleFolder& sample) {
 
 /// A sample's layers were accepted, whatever is thought of them now: each is what the next one is
 /// compared with.
-void judge_layers(const Options& options, QualityReport& report) {
+void judge_layers(const Options& options, QcReport& report) {
   const SampleFolder sample = SampleFolder::open(options.sample);
   const LayerRange range = layers_to_judge(options, sample);
   std::optional<JournalReader> journal;  // an imported sample has none
@@ -177,7 +176,7 @@ void run(const Options& options) {
   // What can't be asked for is said before the report begins.
   const std::vector<fs::path> files = list_images(options.images);
   if (!options.layers.empty()) parse_range(options.layers);
-  QualityReport report(std::cout, options.json);
+  QcReport report(std::cout, options.json);
   if (options.sample.empty()) {
     judge_images(options, files, report);
   } else {

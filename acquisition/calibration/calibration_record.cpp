@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "acquisition/calibration/calibration_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/picture_notes.hpp"
 #include "reconstruct/picture/tiff_writer.hpp"
@@ -18,14 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kHashInName = 12;
-
-fs::path record_path(const fs::path& folder, FieldKind kind) {
-  return folder / (std::string(to_string(kind)) + ".json");
+std::string record_name(FieldKind kind) {
+  return std::string(to_string(kind)) + ".json";
 }
 
 std::string file_name(FieldKind kind, const std::string& sha256) {
-  return std::string(to_string(kind)) + "-" + sha256.substr(0, kHashInName) + ".tif";
+  return std::string(to_string(kind)) + "-" + short_hash(sha256) + ".tif";
 }
 
 /// Means of this kind that the record does not name. What cannot be removed does no harm.
@@ -42,18 +41,12 @@ void remove_former(const fs::path& folder, FieldKind kind, const std::string& in
 }
 
 ordered_json to_json(const CalibrationFrame& frame, FieldKind kind, const std::string& sha256) {
-  return {{"kind", to_string(kind)},
-          {"file", file_name(kind, sha256)},
-          {"sha256", sha256},
-          {"taken_at", frame.taken_at},
-          {"width", frame.mean.cols},
-          {"height", frame.mean.rows},
-          {"bits", frame.bits},
-          {"frames", frame.frames},
-          {"exposure_us", frame.settings.exposure.count()},
-          {"gain", frame.settings.gain},
-          {"red_gain", frame.settings.red_gain},
-          {"blue_gain", frame.settings.blue_gain}};
+  ordered_json record = {{"kind", to_string(kind)},  {"file", file_name(kind, sha256)},
+                         {"sha256", sha256},         {"taken_at", frame.taken_at},
+                         {"width", frame.mean.cols}, {"height", frame.mean.rows},
+                         {"bits", frame.bits},       {"frames", frame.frames}};
+  record.update(taken_with(frame.settings));
+  return record;
 }
 
 std::string again(FieldKind kind) {
@@ -61,6 +54,11 @@ std::string again(FieldKind kind) {
 }
 
 }  // namespace
+
+std::string short_hash(const std::string& sha256) {
+  constexpr std::size_t kShown = 12;
+  return sha256.substr(0, kShown);
+}
 
 const char* to_string(FieldKind kind) {
   return kind == FieldKind::flat ? "flat" : "dark";
@@ -74,8 +72,7 @@ std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
     std::string sha256 = reconstruct::sha256(bytes);
     const std::string name = file_name(kind, sha256);
     reconstruct::write_durably(folder / name, bytes);
-    reconstruct::write_durably(record_path(folder, kind),
-                               to_json(frame, kind, sha256).dump(2) + "\n");
+    write_calibration_file(folder, record_name(kind), to_json(frame, kind, sha256));
     remove_former(folder, kind, name);
     return sha256;
   } catch (const reconstruct::SampleError& error) {
@@ -84,7 +81,7 @@ std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
 }
 
 CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) {
-  const fs::path path = record_path(folder, kind);
+  const fs::path path = folder / record_name(kind);
   std::ifstream file(path);
   if (!file) {
     throw CalibrationError("there is no " + std::string(to_string(kind)) + " field in " +

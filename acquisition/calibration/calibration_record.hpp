@@ -33,6 +33,9 @@ enum class FieldKind { flat, dark };
 
 const char* to_string(FieldKind kind);
 
+/// As much of a hash as people are shown.
+std::string short_hash(const std::string& sha256);
+
 /// Writes it into the folder, which is made if need be, and gives its hash: the mean as
 /// `flat-….tif`, then `flat.json`, which names it and holds the rest. Until that is on the disk,
 /// the frame that was there before is in force; afterwards its file is removed. Throws

@@ -9,8 +9,6 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr std::size_t kShortHash = 12;
-
 std::string settings_text(const bridge::CameraSettings& settings) {
   std::ostringstream text;
   text << settings.exposure.count() << " µs, gain " << settings.gain << ", red_gain "
@@ -18,7 +16,13 @@ std::string settings_text(const bridge::CameraSettings& settings) {
   return text.str();
 }
 
-/// A calibration for frames of this camera with these settings.
+/// What a field depends on: the lens moves with the face.
+bridge::CameraSettings without_lens(bridge::CameraSettings settings) {
+  settings.lens_position.reset();
+  return settings;
+}
+
+/// A calibration for frames of this camera with these settings, which say nothing of the lens.
 CalibrationFrame read_fitting(const CalibrationPlan& plan, FieldKind kind,
                               const bridge::CameraDescription& camera,
                               const bridge::CameraSettings& settings) {
@@ -41,7 +45,7 @@ CalibrationFrame read_fitting(const CalibrationPlan& plan, FieldKind kind,
 }
 
 std::string note_of(FieldKind kind, const CalibrationFrame& frame) {
-  return std::string(to_string(kind)) + " field " + frame.sha256.substr(0, kShortHash) + " of " +
+  return std::string(to_string(kind)) + " field " + short_hash(frame.sha256) + " of " +
          frame.taken_at;
 }
 
@@ -58,14 +62,20 @@ bridge::CameraDescription CorrectedCamera::describe() {
 
 void CorrectedCamera::apply(const bridge::CameraSettings& settings) {
   camera_.apply(settings);
+  const bridge::CameraSettings asked = without_lens(settings);
+  if (settings.lens_position && asked == applied_) return;
+  applied_.reset();
   correction_.reset();
   in_force_.clear();
   const bridge::CameraDescription description = camera_.describe();
   std::optional<CalibrationFrame> flat;
   std::optional<CalibrationFrame> dark;
-  if (plan_.flat) flat = read_fitting(plan_, FieldKind::flat, description, settings);
-  if (plan_.dark) dark = read_fitting(plan_, FieldKind::dark, description, settings);
-  if (!flat && !dark) return;
+  if (plan_.flat) flat = read_fitting(plan_, FieldKind::flat, description, asked);
+  if (plan_.dark) dark = read_fitting(plan_, FieldKind::dark, description, asked);
+  if (!flat && !dark) {
+    applied_ = asked;
+    return;
+  }
   bits_ = flat ? flat->bits : dark->bits;
   if (flat && dark && flat->bits != dark->bits) {
     throw CalibrationError("the flat field is of " + std::to_string(flat->bits) +
@@ -77,6 +87,7 @@ void CorrectedCamera::apply(const bridge::CameraSettings& settings) {
                                                   bits_ == 16 ? CV_16UC3 : CV_8UC3);
   if (flat) in_force_ = note_of(FieldKind::flat, *flat);
   if (dark) in_force_ += (in_force_.empty() ? "" : ", ") + note_of(FieldKind::dark, *dark);
+  applied_ = asked;
 }
 
 bridge::Frame CorrectedCamera::capture(std::chrono::milliseconds time_out) {

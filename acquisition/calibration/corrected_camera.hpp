@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "acquisition/calibration/calibration_plan.hpp"
@@ -19,8 +20,8 @@ class CorrectedCamera : public bridge::Camera {
   /// With the calibrations in force, once settings were applied.
   bridge::CameraDescription describe() override;
 
-  /// Reads the calibrations anew. Throws CalibrationError when one is missing or damaged, or was
-  /// recorded at another size or with other settings.
+  /// Reads the calibrations anew, but where only the lens is moved. Throws CalibrationError when
+  /// one is missing or damaged, or was recorded at another size or with other settings.
   void apply(const bridge::CameraSettings& settings) override;
 
   /// Throws CalibrationError when the frame is not of the calibrations' bits.
@@ -29,6 +30,7 @@ class CorrectedCamera : public bridge::Camera {
  private:
   bridge::Camera& camera_;
   CalibrationPlan plan_;
+  std::optional<bridge::CameraSettings> applied_;  ///< without the lens
   std::unique_ptr<FieldCorrection> correction_;
   int bits_ = 8;
   std::string in_force_;

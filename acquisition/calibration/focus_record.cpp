@@ -6,19 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/calibration/calibration_file.hpp"
+#include "acquisition/focus/face_lean_json.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json lean_json(const std::optional<FaceLean>& lean) {
-  if (!lean) return nullptr;
-  return {{"across_um", lean->across.value},
-          {"down_um", lean->down.value},
-          {"angle_degrees", lean->angle_degrees},
-          {"tiles", lean->tiles}};
-}
 
 ordered_json points_json(const std::vector<FocusRow::Point>& points) {
   ordered_json list = ordered_json::array();

@@ -11,8 +11,6 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr std::size_t kShortHash = 12;
-
 void refuse(CalibrationKind kind, const std::optional<std::string>& complaint) {
   if (!complaint) return;
   throw CalibrationError(std::string("the frames are not fit for a ") + to_string(kind) +
@@ -28,7 +26,7 @@ std::string record_field(FieldKind kind, const CalibrationPlan& plan, const Mean
                                                       .settings = settings,
                                                       .taken_at = taken_at,
                                                       .sha256 = ""});
-  return std::string(to_string(kind)) + " field " + sha256.substr(0, kShortHash) + " of " +
+  return std::string(to_string(kind)) + " field " + short_hash(sha256) + " of " +
          std::to_string(frames.count()) + " frames is in " + plan.folder.string() +
          ((kind == FieldKind::flat ? plan.flat : plan.dark)
               ? ", in force from the next start of a job on"

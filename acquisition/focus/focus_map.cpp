@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "acquisition/focus/detail.hpp"
 #include "acquisition/focus/focus_curve.hpp"
+#include "acquisition/quality/median.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -78,10 +80,8 @@ double scatter_about(const Plane& plane, const std::vector<TilePeak>& tiles) {
   for (const TilePeak& tile : tiles) {
     distances.push_back(std::abs(tile.peak - plane.at(tile)) / tile.error);
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::ranges::nth_element(distances, middle);
   constexpr double kOfANormal = 1.4826;
-  return std::max(1.0, kOfANormal * *middle);
+  return std::max(1.0, kOfANormal * median(std::move(distances)));
 }
 
 void weigh(const Plane& plane, double scatter, std::vector<TilePeak>& tiles) {
@@ -98,9 +98,7 @@ Plane level_plane(const std::vector<TilePeak>& tiles) {
   std::vector<double> peaks;
   peaks.reserve(tiles.size());
   for (const TilePeak& tile : tiles) peaks.push_back(tile.peak);
-  const auto middle = peaks.begin() + static_cast<std::ptrdiff_t>(peaks.size() / 2);
-  std::ranges::nth_element(peaks, middle);
-  return {{*middle, 0.0, 0.0}, {}};
+  return {{median(std::move(peaks)), 0.0, 0.0}, {}};
 }
 
 }  // namespace

@@ -5,10 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
+
+#include "acquisition/quality/median.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -37,13 +40,6 @@ cv::Vec2f chroma(const cv::Vec3f& cell) {
 
 float distance(const cv::Vec2f& a, const cv::Vec2f& b) {
   return std::max(std::fabs(a[0] - b[0]), std::fabs(a[1] - b[1]));
-}
-
-template <typename Value>
-Value median(std::vector<Value> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 template <typename Of>

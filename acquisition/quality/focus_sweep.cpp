@@ -7,6 +7,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "acquisition/quality/median.hpp"
 #include "acquisition/quality/shared_detail.hpp"
 #include "acquisition/quality/sweep_mask.hpp"
 #include "acquisition/quality/tile_grid.hpp"
@@ -64,11 +65,8 @@ void check_alike(const cv::Mat& image, const cv::Size& size, int type, std::size
                    ": a sweep is of one field and one camera");
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_or_zero(std::vector<double> values) {
+  return values.empty() ? 0.0 : median(std::move(values));
 }
 
 /// How bright each frame is, relative to the sweep's mean. The median over the tiles: light that
@@ -87,7 +85,7 @@ std::vector<double> relative_brightness(const std::vector<FrameDetail>& frames) 
     for (std::size_t t = 0; t < tiles; ++t) {
       if (frame[t].brightness > 0.0) ratios.push_back(frame[t].brightness / means[t]);
     }
-    result.push_back(median_of(std::move(ratios)));
+    result.push_back(median_or_zero(std::move(ratios)));
   }
   return result;
 }
@@ -102,7 +100,7 @@ double noise_of_empty_tiles(const FrameDetail& frame, std::size_t scale) {
     const double error = std::sqrt(kDependence / detail.count) * detail.unshared();
     if (detail.shared < kCertain * error) noise.push_back(detail.unshared() / detail.count);
   }
-  return median_of(std::move(noise));
+  return median_or_zero(std::move(noise));
 }
 
 /// The noise in what the two images of a tile do not share, per pixel in each frame. A camera at

@@ -99,6 +99,16 @@ void halve(const Plane& from, Plane& to) {
   }
 }
 
+/// Sobel's gradients at a place of a row, along it and across the rows.
+inline float gradient_along(const float* above, const float* here, const float* below, int i) {
+  return 0.125F * ((above[i + 1] + 2.0F * here[i + 1] + below[i + 1]) -
+                   (above[i - 1] + 2.0F * here[i - 1] + below[i - 1]));
+}
+inline float gradient_across(const float* above, const float* below, int i) {
+  return 0.125F * ((below[i - 1] + 2.0F * below[i] + below[i + 1]) -
+                   (above[i - 1] + 2.0F * above[i] + above[i + 1]));
+}
+
 /// All that is measured of the picture itself, with the noise still in it.
 struct FullResolution {
   DetailEnergy curvature;
@@ -130,10 +140,8 @@ FullResolution look_closely(const Plane& plane, const cv::Rect& part) {
       const float corners = above[i - 1] + above[i + 1] + below[i - 1] + below[i + 1];
       const float cxx = beside - 2.0F * here[i];
       const float cyy = over - 2.0F * here[i];
-      const float gx = 0.125F * ((above[i + 1] + 2.0F * here[i + 1] + below[i + 1]) -
-                                 (above[i - 1] + 2.0F * here[i - 1] + below[i - 1]));
-      const float gy = 0.125F * ((below[i - 1] + 2.0F * below[i] + below[i + 1]) -
-                                 (above[i - 1] + 2.0F * above[i] + above[i + 1]));
+      const float gx = gradient_along(above, here, below, i);
+      const float gy = gradient_across(above, below, i);
       const float checkered = corners - 2.0F * (beside + over) + 4.0F * here[i];
       const bool counts = checkered == checkered;
       sum_xx += counts ? cxx * cxx : 0.0F;
@@ -165,10 +173,8 @@ DetailEnergy gradient_energy(const Plane& plane, const cv::Rect& part) {
     float count = 0.0F;
 #pragma omp simd reduction(+ : row_x, row_y, count)
     for (int x = part.x; x < part.br().x; ++x) {
-      const float gx = 0.125F * ((above[x + 1] + 2.0F * here[x + 1] + below[x + 1]) -
-                                 (above[x - 1] + 2.0F * here[x - 1] + below[x - 1]));
-      const float gy = 0.125F * ((below[x - 1] + 2.0F * below[x] + below[x + 1]) -
-                                 (above[x - 1] + 2.0F * above[x] + above[x + 1]));
+      const float gx = gradient_along(above, here, below, x);
+      const float gy = gradient_across(above, below, x);
       const float both = gx + gy;
       const bool counts = both == both;
       row_x += counts ? gx * gx : 0.0F;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "acquisition/quality/median.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -73,9 +76,7 @@ double median_of(const std::vector<Place>& places, const Number& number) {
   for (const Place& place : places) {
     if (casting < kEnoughCasting || place.casting) values.push_back(number(place));
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 double median_residual(const std::vector<Place>& places) {

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "acquisition/quality/median.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -63,14 +66,6 @@ double along_x(const DetailEnergy& energy) {
 }
 double along_y(const DetailEnergy& energy) {
   return energy.along_y;
-}
-
-/// Of an even number of values the mean of the two in the middle.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return values.size() % 2 == 1 ? *middle
-                                : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 struct Weighted {

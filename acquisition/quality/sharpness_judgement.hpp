@@ -8,9 +8,9 @@
 namespace biotomy::acquisition {
 
 /// Whether a frame of `layer` is as sharp as it could be (`sharpness_ratio`), and so along each
-/// axis
-/// (`sharpness_along_axis`, of the less sharp: a movement blurs one of them). The result has its
-/// measures already.
+/// axis (`sharpness_along_axis`, of the less sharp: a movement blurs one of them), and whether it
+/// shows fine detail at all where the last layers do (`fine_contrast`). The result has its measures
+/// already.
 ///
 /// After a focus search at this layer the search's sharpest frame decides: it shows the same face,
 /// whatever that contains. Otherwise the last accepted layers do: what they contain is nearly the

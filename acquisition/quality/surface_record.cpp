@@ -3,17 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "acquisition/quality/median.hpp"
+
 namespace biotomy::acquisition {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-}  // namespace
-
 void SurfaceRecord::accept(std::int64_t layer, std::shared_ptr<const SurfacePrint> surface,
                            const FrameLight& light, double arrived) {
   layer_ = layer;

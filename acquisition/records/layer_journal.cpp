@@ -5,6 +5,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <nlohmann/json.hpp>
 
+#include "acquisition/focus/face_lean_json.hpp"
+#include "acquisition/quality/metrics_json.hpp"
 #include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_schema.hpp"
 #include "reconstruct/errors.hpp"
@@ -31,31 +33,12 @@ std::string telemetry_json(const bridge::StageStatus& status) {
       .dump();
 }
 
-std::string metrics_json(const std::vector<Metric>& metrics) {
-  json list = json::array();
-  for (const Metric& metric : metrics) {
-    list.push_back({{"name", metric.name},
-                    {"value", metric.value},
-                    {"limit", metric.limit},
-                    {"passed", metric.passed}});
-  }
-  return list.dump();
-}
-
 std::string points_json(const std::vector<FocusRow::Point>& points) {
   json list = json::array();
   for (const FocusRow::Point& point : points) {
     list.push_back({point.column.value, point.sharpness});
   }
   return list.dump();
-}
-
-std::string lean_json(const FaceLean& lean) {
-  return json{{"across_um", lean.across.value},
-              {"down_um", lean.down.value},
-              {"angle_degrees", lean.angle_degrees},
-              {"tiles", lean.tiles}}
-      .dump();
 }
 
 /// Runs a piece of work on the database and names the journal in what goes wrong.
@@ -141,7 +124,7 @@ struct LayerJournal::State {
     insert.bind(8, to_string(attempt.assessment.verdict));
     insert.bind(9, attempt.assessment.slug);
     insert.bind(10, attempt.assessment.reason);
-    insert.bind(11, metrics_json(attempt.assessment.metrics));
+    insert.bind(11, metrics_json(attempt.assessment.metrics).dump());
     insert.bind(12, attempt.file);
     insert.bind(13, attempt.sha256);
     insert.bind(14, telemetry_json(attempt.telemetry));
@@ -199,7 +182,7 @@ void LayerJournal::record_focus(const FocusRow& focus, const std::string& at) {
     insert.bind(5, focus.column.value);
     insert.bind(6, focus.sharpness);
     insert.bind(7, points_json(focus.points));
-    if (focus.lean) insert.bind(8, lean_json(*focus.lean));
+    if (focus.lean) insert.bind(8, lean_json(focus.lean).dump());
     insert.exec();
   });
 }

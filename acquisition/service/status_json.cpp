@@ -2,21 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "acquisition/focus/face_lean_json.hpp"
+#include "acquisition/quality/metrics_json.hpp"
+
 namespace biotomy::acquisition {
 namespace {
 
 using nlohmann::json;
-
-json metrics_json(const std::vector<Metric>& metrics) {
-  json list = json::array();
-  for (const Metric& metric : metrics) {
-    list.push_back({{"name", metric.name},
-                    {"value", metric.value},
-                    {"limit", metric.limit},
-                    {"passed", metric.passed}});
-  }
-  return list;
-}
 
 json stage_json(const JobStatus& status) {
   if (!status.stage) return nullptr;
@@ -60,22 +52,11 @@ json last_layer_json(const std::optional<CommittedLayer>& layer) {
 
 json focus_json(const std::optional<FocusReport>& focus) {
   if (!focus) return nullptr;
-  json lean = nullptr;
-  if (focus->lean) {
-    lean = {{"across_um", focus->lean->across.value},
-            {"down_um", focus->lean->down.value},
-            {"angle_degrees", focus->lean->angle_degrees},
-            {"tiles", focus->lean->tiles}};
-  }
-  return {{"layer", focus->layer},
-          {"why", focus->why},
-          {"found", focus->found},
-          {"why_not", focus->why_not},
-          {"actuator", focus->actuator},
-          {"position", focus->position},
-          {"plane_um", focus->plane.value},
-          {"frames", focus->frames},
-          {"lean", lean}};
+  return {{"layer", focus->layer},          {"why", focus->why},
+          {"found", focus->found},          {"why_not", focus->why_not},
+          {"actuator", focus->actuator},    {"position", focus->position},
+          {"plane_um", focus->plane.value}, {"frames", focus->frames},
+          {"lean", lean_json(focus->lean)}};
 }
 
 template <typename Value>

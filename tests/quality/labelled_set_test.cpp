@@ -7,7 +7,7 @@
 namespace biotomy::tests {
 namespace {
 
-TEST(Assessment, ReachesItsGoalsOnAPartOfTheLabelledSet) {
+TEST(Assessment, AcceptsThePartsGoodFramesAndMissesOfEachDefectAtMostAWeakOne) {
   std::vector<SequenceSettings> set = labelled_set(Seeds::test, 6);
   for (SequenceSettings& settings : set) settings.layers = 10;
   const std::vector<JudgedFrame> frames = judge_set(set, 2);

@@ -97,6 +97,21 @@ TEST_F(CorrectedFrames, AreRefusedWhenTheCalibrationWasTakenOtherwise) {
   EXPECT_THROW(corrected(true, true).apply(settings_), CalibrationError);
 }
 
+TEST_F(CorrectedFrames, AreCorrectedByTheSameFieldWhereverTheLensStands) {
+  record();
+  CorrectedCamera camera = corrected(true, true);
+  camera.apply(settings_);
+  bridge::CameraSettings moved = settings_;
+  moved.lens_position = 4.0;
+  std::filesystem::remove(folder_.path() / "flat.json");
+  camera.apply(moved);
+  EXPECT_EQ(camera.capture({}).image.at<cv::Vec3b>(3, 35), cv::Vec3b(120, 120, 120))
+      << "the field was not read again";
+  EXPECT_THROW(camera.apply(settings_), CalibrationError) << "a new job reads it";
+  moved.gain *= 2.0;
+  EXPECT_THROW(camera.apply(moved), CalibrationError);
+}
+
 TEST_F(CorrectedFrames, AreRefusedWhenTheyHaveOtherBits) {
   record(false);
   CorrectedCamera camera = corrected(true, false);

@@ -1,4 +1,4 @@
-#include "tools/quality_report.hpp"
+#include "tools/qc_report.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "acquisition/quality/metrics_json.hpp"
+
 namespace biotomy::tools {
 namespace {
 
 using acquisition::Assessment;
 using acquisition::AttemptNote;
 using acquisition::Metric;
+using acquisition::metrics_json;
 using acquisition::Verdict;
 using nlohmann::ordered_json;
 
@@ -33,17 +36,6 @@ std::string recorded(const AttemptNote* attempt, const std::string& name) {
   return "";
 }
 
-ordered_json metrics_json(const std::vector<Metric>& metrics) {
-  ordered_json list = ordered_json::array();
-  for (const Metric& metric : metrics) {
-    list.push_back({{"name", metric.name},
-                    {"value", metric.value},
-                    {"limit", metric.limit},
-                    {"passed", metric.passed}});
-  }
-  return list;
-}
-
 ordered_json attempts_json(const std::vector<AttemptNote>& attempts) {
   ordered_json list = ordered_json::array();
   for (const AttemptNote& attempt : attempts) {
@@ -59,11 +51,11 @@ ordered_json attempts_json(const std::vector<AttemptNote>& attempts) {
 
 }  // namespace
 
-QualityReport::QualityReport(std::ostream& out, bool json) : out_(out), json_(json) {
+QcReport::QcReport(std::ostream& out, bool json) : out_(out), json_(json) {
   if (json_) out_ << "{\n\"frames\": [";
 }
 
-void QualityReport::add(const JudgedImage& image) {
+void QcReport::add(const JudgedImage& image) {
   if (image.assessment.verdict == Verdict::rejected) ++rejected_;
   if (json_) {
     print_json(image);
@@ -73,8 +65,8 @@ void QualityReport::add(const JudgedImage& image) {
   ++images_;
 }
 
-void QualityReport::add_unreadable(const std::string& name, std::optional<std::int64_t> layer,
-                                   const std::string& why) {
+void QcReport::add_unreadable(const std::string& name, std::optional<std::int64_t> layer,
+                              const std::string& why) {
   if (json_) {
     begin_json_entry();
     ordered_json entry = {{"file", name}};
@@ -89,11 +81,11 @@ void QualityReport::add_unreadable(const std::string& name, std::optional<std::i
   ++unreadable_;
 }
 
-void QualityReport::begin_json_entry() {
+void QcReport::begin_json_entry() {
   out_ << (images_ == 0 ? "\n" : ",\n");
 }
 
-void QualityReport::print(const JudgedImage& image) {
+void QcReport::print(const JudgedImage& image) {
   const Assessment& assessment = image.assessment;
   out_ << image.name << "  " << to_string(assessment.verdict) << ": " << assessment.reason << '\n';
   for (const AttemptNote& attempt : image.attempts) {
@@ -111,7 +103,7 @@ void QualityReport::print(const JudgedImage& image) {
   }
 }
 
-void QualityReport::print_json(const JudgedImage& image) {
+void QcReport::print_json(const JudgedImage& image) {
   begin_json_entry();
   const Assessment& assessment = image.assessment;
   ordered_json entry = {{"file", image.name}};
@@ -124,7 +116,7 @@ void QualityReport::print_json(const JudgedImage& image) {
   out_ << entry.dump();
 }
 
-void QualityReport::finish() {
+void QcReport::finish() {
   const int accepted = images_ - rejected_ - unreadable_;
   if (json_) {
     out_ << "\n],\n\"accepted\": " << accepted << ",\n\"rejected\": " << rejected_

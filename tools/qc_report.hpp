@@ -21,9 +21,9 @@ struct JudgedImage {
 
 /// Writes image by image what was found out, as blocks of text or as one JSON document, and keeps
 /// nothing but the counts.
-class QualityReport {
+class QcReport {
  public:
-  QualityReport(std::ostream& out, bool json);
+  QcReport(std::ostream& out, bool json);
 
   void add(const JudgedImage& image);
 
