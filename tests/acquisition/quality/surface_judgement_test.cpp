@@ -47,6 +47,20 @@ TEST(SurfaceJudgement, SeesDebrisOfADarkColourToo) {
   EXPECT_EQ(watch.judge(strewn(watch.next_face(), 20, cv::Scalar(10, 10, 60))).slug, "debris");
 }
 
+TEST(SurfaceJudgement, ExpectsMoreNewColoursAfterALayerInWhichTissueCameUp) {
+  SurfaceWatch watch;
+  watch.accept_layers(2);
+  const Assessment last = watch.judge(watch.next_face());
+  const cv::Mat dirty = strewn(watch.camera.photograph(80.0), 20, kChip);
+  watch.record.accept(3, last.surface, last.light, 0.0);
+  const Assessment after_a_quiet_layer = watch.judge(dirty);
+  EXPECT_EQ(after_a_quiet_layer.slug, "debris");
+  watch.record.accept(3, last.surface, last.light, 0.5);
+  const Assessment after_an_arrival = watch.judge(dirty);
+  EXPECT_EQ(after_an_arrival.verdict, Verdict::accepted) << after_an_arrival.reason;
+  EXPECT_EQ(value_of(after_an_arrival, "debris"), value_of(after_a_quiet_layer, "debris"));
+}
+
 TEST(SurfaceJudgement, SeesGlare) {
   SurfaceWatch watch;
   watch.accept_layers(3);
