@@ -18,7 +18,8 @@ std::optional<UrlParts> split_url(const std::string& url);
 /// Sends each message by HTTP POST. An answer of 200 to 299 is a delivery; redirections are not
 /// followed. Certificates are checked against those that the system trusts. The header
 /// Idempotency-Key carries the message's id. Messages of failures name the origin alone: the rest
-/// of the URL may be a secret.
+/// of the URL may be a secret. The program must ignore SIGPIPE: a connection may be cut off while
+/// it is written to.
 class WebhookChannel final : public Channel {
  public:
   /// `token` is sent as Authorization: Bearer, unless empty.

@@ -1,6 +1,7 @@
 #include "acquisition/service/notifications/webhook_channel.hpp"
 
 #include <atomic>
+#include <csignal>
 #include <mutex>
 #include <thread>
 
@@ -86,6 +87,12 @@ auto delivering(WebhookChannel& channel, milliseconds time = kTime, std::stop_to
   return [&channel, time, stop] { channel.deliver(message(), time, stop); };
 }
 
+/// SIGPIPE is ignored, as in the daemon.
+class WebhookChannelTest : public testing::Test {
+ protected:
+  WebhookChannelTest() { std::signal(SIGPIPE, SIG_IGN); }
+};
+
 TEST(SplitUrl, TakesOriginAndPathApart) {
   const auto url = split_url("https://example.org:8443/hook/secret?x=1#part");
   ASSERT_TRUE(url);
@@ -102,7 +109,7 @@ TEST(SplitUrl, TakesNothingElse) {
   }
 }
 
-TEST(WebhookChannel, PostsTheMessage) {
+TEST_F(WebhookChannelTest, PostsTheMessage) {
   HookServer server;
   WebhookChannel channel(*split_url(server.origin() + "/hook"), "a-token");
   channel.deliver(message(), kTime, {});
@@ -114,7 +121,7 @@ TEST(WebhookChannel, PostsTheMessage) {
   EXPECT_EQ(requests[0].get_header_value("Authorization"), "Bearer a-token");
 }
 
-TEST(WebhookChannel, SaysWhatTheServerAnsweredButNotWhereTheHookIs) {
+TEST_F(WebhookChannelTest, SaysWhatTheServerAnsweredButNotWhereTheHookIs) {
   HookServer server;
   server.fail(1);
   WebhookChannel channel(*split_url(server.origin() + "/hook"), "");
@@ -122,39 +129,39 @@ TEST(WebhookChannel, SaysWhatTheServerAnsweredButNotWhereTheHookIs) {
                                        HasSubstr("status 503: no room"), Not(HasSubstr("/hook")))));
 }
 
-TEST(WebhookChannel, FollowsNoRedirection) {
+TEST_F(WebhookChannelTest, FollowsNoRedirection) {
   HookServer server;
   WebhookChannel channel(*split_url(server.origin() + "/elsewhere"), "");
   EXPECT_THAT(delivering(channel), ThrowsMessage<DeliveryError>(HasSubstr("status 302")));
   EXPECT_TRUE(server.requests().empty());
 }
 
-TEST(WebhookChannel, TakesAnAnswerWithoutWords) {
+TEST_F(WebhookChannelTest, TakesAnAnswerWithoutWords) {
   HookServer server;
   WebhookChannel channel(*split_url(server.origin() + "/silent"), "");
   EXPECT_NO_THROW(channel.deliver(message(), kTime, {}));
 }
 
-TEST(WebhookChannel, NeedsNoMoreThanTheStatusOfAnAnswer) {
+TEST_F(WebhookChannelTest, NeedsNoMoreThanTheStatusOfAnAnswer) {
   HookServer server;
   WebhookChannel channel(*split_url(server.origin() + "/talkative"), "");
   EXPECT_NO_THROW(channel.deliver(message(), kTime, {}));
 }
 
-TEST(WebhookChannel, SaysWhenNobodyAnswers) {
+TEST_F(WebhookChannelTest, SaysWhenNobodyAnswers) {
   std::string address;
   { address = ListeningSocket().address(); }
   WebhookChannel channel(*split_url("http://" + address), "");
   EXPECT_THAT(delivering(channel), ThrowsMessage<DeliveryError>(HasSubstr("does not answer")));
 }
 
-TEST(WebhookChannel, WaitsNoLongerThanItsTime) {
+TEST_F(WebhookChannelTest, WaitsNoLongerThanItsTime) {
   const ListeningSocket silent;
   WebhookChannel channel(*split_url("http://" + silent.address()), "");
   EXPECT_THAT(delivering(channel, milliseconds(200)), testing::Throws<DeliveryError>());
 }
 
-TEST(WebhookChannel, GivesUpWhenTheDaemonStops) {
+TEST_F(WebhookChannelTest, GivesUpWhenTheDaemonStops) {
   const ListeningSocket silent;
   WebhookChannel channel(*split_url("http://" + silent.address()), "");
   std::stop_source source;
@@ -163,7 +170,7 @@ TEST(WebhookChannel, GivesUpWhenTheDaemonStops) {
               ThrowsMessage<DeliveryError>(HasSubstr("given up with the daemon")));
 }
 
-TEST(WebhookChannel, ReachesAServerThatFailsAtFirst) {
+TEST_F(WebhookChannelTest, ReachesAServerThatFailsAtFirst) {
   HookServer server;
   server.fail(4);
   const TemporaryFolder folder;
