@@ -1,6 +1,7 @@
 #include "acquisition/service/configuration.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "acquisition/service/configuration_keys.hpp"
 #include "acquisition/service/focus_section.hpp"
@@ -119,6 +120,31 @@ LinesConfiguration read_lines(const CheckedTable& table) {
   return lines;
 }
 
+/// How lines.trigger goes with the camera's exposures; the line itself is read with the lines.
+bridge::CameraSyncSettings read_camera_sync(const CheckedTable& table, bool libcamera) {
+  using Mode = bridge::CameraSyncSettings::Mode;
+  bridge::CameraSyncSettings sync;
+  const std::string mode =
+      table.get(TextKey{.name = "sync",
+                        .fallback = "none",
+                        .choices = {"none", "trigger", "strobe"},
+                        .description = "of the libcamera backend: what lines.trigger does for a "
+                                       "frame: a pulse makes the camera expose (the camera must be "
+                                       "set to wait for it), or a lamp is on for it alone"});
+  sync.mode = mode == "trigger" ? Mode::trigger : mode == "strobe" ? Mode::strobe : Mode::none;
+  sync.pulse = std::chrono::microseconds(
+      table.get(IntegerKey{.name = "trigger_pulse_us",
+                           .fallback = sync.pulse.count(),
+                           .unit = "µs",
+                           .minimum = 1,
+                           .maximum = 1000000,
+                           .description = "how long a trigger is active"}));
+  if (sync.mode != Mode::none && !libcamera) {
+    table.reject("sync", "\"" + mode + "\" is not possible; it is of the libcamera backend");
+  }
+  return sync;
+}
+
 CameraConfiguration read_camera(const CheckedTable& table, CameraPlan& plan) {
   CameraConfiguration camera;
   const bool libcamera =
@@ -139,7 +165,21 @@ CameraConfiguration read_camera(const CheckedTable& table, CameraPlan& plan) {
                                  "of the libcamera backend: pixels; 0 is the largest offered");
   camera.libcamera.height = count(table, "height", 0, 0, 65535, "likewise");
   camera.libcamera.pixel_format = optional_text(
-      table, "pixel_format", "of the libcamera backend: \"BGR888\" …; empty is the best offered");
+      table, "pixel_format",
+      "of the libcamera backend: \"BGR888\", \"NV12\", \"SRGGB12_CSI2P\" …; empty is the best "
+      "offered, finished colours before raw values");
+  camera.libcamera.raw_is_srgb =
+      table.get(TextKey{.name = "raw_transfer",
+                        .fallback = "srgb",
+                        .choices = {"srgb", "linear"},
+                        .description = "of a raw pixel_format, which gives 16 bits: the curve that "
+                                       "viewers expect, or values in proportion to the light"}) ==
+      "srgb";
+  camera.libcamera.viewfinder_width =
+      count(table, "viewfinder_width", 0, 0, 4096,
+            "of the libcamera backend: pixels of a small picture beside each frame, where the "
+            "camera can; 0 is none");
+  camera.libcamera.sync = read_camera_sync(table, libcamera);
 
   plan.settings.exposure = std::chrono::microseconds(
       table.get(IntegerKey{.name = "exposure_us",
@@ -320,12 +360,22 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
              "part of the frame, from an edge on, that may still show the layer before");
 }
 
+/// A camera that is triggered switches the line itself: only it knows when.
+void give_trigger_to_camera(const CheckedTable& camera, Configuration& configuration) {
+  bridge::CameraSyncSettings& sync = configuration.camera.libcamera.sync;
+  if (sync.mode == bridge::CameraSyncSettings::Mode::none) return;
+  std::optional<bridge::GpioLineSettings>& trigger = configuration.lines.gpiod.trigger;
+  if (!trigger) camera.reject("sync", "needs a line: name its chip and line in [lines.trigger]");
+  sync.line = *std::exchange(trigger, std::nullopt);
+}
+
 Configuration read(const CheckedTable& document) {
   Configuration configuration;
   configuration.job.plan = read_job(document.table("job"));
   configuration.stage = read_stage(document.table("stage"));
   configuration.lines = read_lines(document.table("lines"));
   configuration.camera = read_camera(document.table("camera"), configuration.job.camera);
+  give_trigger_to_camera(document.table("camera"), configuration);
   configuration.job.calibration = read_calibration(document.table("calibration"));
   configuration.job.focus =
       read_focus(document.table("focus"),

@@ -16,7 +16,7 @@ const char* about(const std::string& table) {
       {"lines.estop", "Of the gpiod backend: active when the e-stop is pressed."},
       {"lines.door", "Of the gpiod backend: active when the door is open."},
       {"lines.lamp", "Of the gpiod backend."},
-      {"lines.trigger", "Of the gpiod backend; may be left out."},
+      {"lines.trigger", "A line of this computer for camera.sync; may be left out."},
       {"lines.tower_light", "Of the gpiod backend; may be left out. Lit while an alarm waits."},
       {"camera", "The camera and how it takes a frame."},
       {"calibration", "What biotomy calibrate records, and whether frames are corrected by it."},

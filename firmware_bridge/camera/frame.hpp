@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 #include <opencv2/core/mat.hpp>
 
@@ -17,6 +18,8 @@ struct Frame {
       0};                                 ///< CLOCK_MONOTONIC or CLOCK_BOOTTIME of the camera
   std::chrono::microseconds exposure{0};  ///< as used, not as asked
   double gain = 0.0;                      ///< as used, not as asked
+  cv::Mat viewfinder{};                   ///< the same small, for looking at; mostly empty
+  std::string remark{};  ///< what the camera went through to give it, in words; mostly empty
 };
 
 }  // namespace biotomy::bridge

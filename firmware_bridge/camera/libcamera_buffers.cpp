@@ -4,12 +4,15 @@
 #include <cerrno>
 #include <system_error>
 
-#include <libcamera/stream.h>
+#include <libcamera/formats.h>
 #include <linux/dma-buf.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include "firmware_bridge/camera/libcamera_format.hpp"
 #include "firmware_bridge/device_error.hpp"
+#include "firmware_bridge/wire/unique_fd.hpp"
 
 namespace biotomy::bridge {
 
@@ -35,6 +38,20 @@ class ReadAccess {
   int descriptor_;
 };
 
+struct PlaneExtent {
+  unsigned int offset;
+  unsigned int length;
+};
+
+/// How a frame's planes lie one after the other. Of the formats we read only NV12 has two.
+std::vector<PlaneExtent> planes_of(const libcamera::StreamConfiguration& configuration) {
+  if (configuration.pixelFormat != libcamera::formats::NV12) {
+    return {{0, configuration.frameSize}};
+  }
+  const unsigned int luma = configuration.stride * configuration.size.height;
+  return {{0, luma}, {luma, configuration.frameSize - luma}};
+}
+
 [[noreturn]] void refuse(const std::string& what) {
   throw DeviceError(DeviceError::Kind::configuration, "camera: " + what);
 }
@@ -45,10 +62,7 @@ LibcameraBuffers::LibcameraBuffers(std::shared_ptr<libcamera::Camera> camera,
                                    libcamera::Stream* stream)
     : stream_(stream),
       allocator_(std::make_unique<libcamera::FrameBufferAllocator>(std::move(camera))) {
-  const int result = allocator_->allocate(stream);
-  if (result < 0) {
-    refuse("no memory for its frames: " + std::generic_category().message(-result));
-  }
+  if (allocator_->allocate(stream) < 0) make_own(stream->configuration());
   try {
     for (const auto& buffer : all()) map(*buffer);
   } catch (...) {
@@ -62,7 +76,27 @@ LibcameraBuffers::~LibcameraBuffers() {
 }
 
 const std::vector<std::unique_ptr<libcamera::FrameBuffer>>& LibcameraBuffers::all() const {
-  return allocator_->buffers(stream_);
+  return own_.empty() ? allocator_->buffers(stream_) : own_;
+}
+
+void LibcameraBuffers::make_own(const libcamera::StreamConfiguration& configuration) {
+  for (unsigned int i = 0; i < configuration.bufferCount; ++i) {
+    UniqueFd memory(::memfd_create("camera-frame", MFD_CLOEXEC));
+    if (!memory.valid() || ::ftruncate(memory.get(), configuration.frameSize) != 0) {
+      refuse("no memory for its frames: " + std::generic_category().message(errno));
+    }
+    const int descriptor = memory.get();
+    const libcamera::SharedFD shared(descriptor);  // a duplicate: it takes over what is no variable
+    std::vector<libcamera::FrameBuffer::Plane> planes;
+    for (const auto& [offset, length] : planes_of(configuration)) {
+      libcamera::FrameBuffer::Plane plane;
+      plane.fd = shared;
+      plane.offset = offset;
+      plane.length = length;
+      planes.push_back(plane);
+    }
+    own_.push_back(std::make_unique<libcamera::FrameBuffer>(planes));
+  }
 }
 
 void LibcameraBuffers::map(const libcamera::FrameBuffer& buffer) {
@@ -99,9 +133,9 @@ const LibcameraBuffers::Mapping& LibcameraBuffers::mapping_of(int descriptor) co
   return *found;
 }
 
-cv::Mat LibcameraBuffers::to_image(const libcamera::FrameBuffer& buffer, PixelFormat format,
-                                   YuvRange range) const {
-  const auto& configuration = stream_->configuration();
+cv::Mat LibcameraBuffers::to_image(const libcamera::FrameBuffer& buffer,
+                                   const libcamera::StreamConfiguration& configuration,
+                                   const RawColours& raw) const {
   const auto& planes = buffer.planes();
   const auto& filled = buffer.metadata().planes();
 
@@ -116,8 +150,13 @@ cv::Mat LibcameraBuffers::to_image(const libcamera::FrameBuffer& buffer, PixelFo
     parts.push_back({{static_cast<const std::uint8_t*>(mapping.data) + planes[i].offset, used},
                      configuration.stride});
   }
-  return to_rgb(format, static_cast<int>(configuration.size.width),
-                static_cast<int>(configuration.size.height), parts, range);
+  const auto width = static_cast<int>(configuration.size.width);
+  const auto height = static_cast<int>(configuration.size.height);
+  const FrameFormat format = *known_format(configuration.pixelFormat);
+  if (const auto* bayer = std::get_if<BayerFormat>(&format)) {
+    return demosaic(*bayer, width, height, parts.front(), raw);
+  }
+  return to_rgb(std::get<PixelFormat>(format), width, height, parts, coding_of(configuration));
 }
 
 }  // namespace biotomy::bridge

@@ -7,13 +7,16 @@
 
 #include <libcamera/camera.h>
 #include <libcamera/framebuffer_allocator.h>
+#include <libcamera/stream.h>
 
-#include "firmware_bridge/camera/pixel_formats.hpp"
+#include "firmware_bridge/camera/bayer.hpp"
 
 namespace biotomy::bridge {
 
-/// The memory of one stream's frames, allocated by the camera and mapped for reading; each file
-/// descriptor is mapped once, whatever the number of planes in it. The camera must be configured.
+/// The memory of one stream's frames, mapped for reading; each file descriptor is mapped once,
+/// whatever the number of planes in it. The camera allocates it, or where it cannot (libcamera's
+/// virtual cameras, on a kernel without DMA heaps) it is ordinary memory of this process. The
+/// camera must be configured.
 class LibcameraBuffers {
  public:
   /// Throws DeviceError (configuration) if there is no memory or it can't be mapped.
@@ -24,8 +27,11 @@ class LibcameraBuffers {
 
   const std::vector<std::unique_ptr<libcamera::FrameBuffer>>& all() const;
 
-  /// Copies a filled buffer out as R, G, B. Throws PixelError.
-  cv::Mat to_image(const libcamera::FrameBuffer& buffer, PixelFormat format, YuvRange range) const;
+  /// Copies a filled buffer of that configuration out as R, G, B; `raw` is what is to be done to
+  /// raw values. Throws PixelError.
+  cv::Mat to_image(const libcamera::FrameBuffer& buffer,
+                   const libcamera::StreamConfiguration& configuration,
+                   const RawColours& raw) const;
 
  private:
   struct Mapping {
@@ -33,12 +39,14 @@ class LibcameraBuffers {
     void* data = nullptr;
     std::size_t size = 0;
   };
+  void make_own(const libcamera::StreamConfiguration& configuration);
   void map(const libcamera::FrameBuffer& buffer);
   void unmap_all();
   const Mapping& mapping_of(int descriptor) const;
 
   libcamera::Stream* stream_;
   std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
+  std::vector<std::unique_ptr<libcamera::FrameBuffer>> own_;  ///< used when not empty
   std::vector<Mapping> mappings_;
 };
 

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include <libcamera/camera_manager.h>
+#include <libcamera/logging.h>
 
 #include "firmware_bridge/device_error.hpp"
 
@@ -15,6 +16,7 @@ std::shared_ptr<libcamera::CameraManager> shared_camera_manager() {
 
   const std::lock_guard lock(mutex);
   if (auto manager = running.lock()) return manager;
+  libcamera::logSetLevel("Camera", "WARN");  // not a line of its version at each start
   auto manager = std::make_unique<libcamera::CameraManager>();
   if (const int result = manager->start(); result != 0) {
     throw DeviceError(

@@ -1,6 +1,7 @@
 #include "firmware_bridge/camera/pixel_formats.hpp"
 
 #include <array>
+#include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -22,21 +23,53 @@ cv::Mat view(const PixelPlane& plane, int rows, int columns, int type) {
   return {rows, columns, type, const_cast<std::uint8_t*>(plane.bytes.data()), plane.stride};
 }
 
-/// Full-range Y at full size, U and V at a lower one, to R, G, B. OpenCV's own conversions from
-/// subsampled formats know the limited range alone; its YCrCb is the full-range one of JPEG.
-cv::Mat full_range_to_rgb(const cv::Mat& y, const cv::Mat& u, const cv::Mat& v) {
+/// The weights of red and blue in Y.
+std::pair<double, double> luma_weights(YuvMatrix matrix) {
+  switch (matrix) {
+    case YuvMatrix::bt601:
+      return {0.299, 0.114};
+    case YuvMatrix::bt709:
+      return {0.2126, 0.0722};
+    case YuvMatrix::bt2020:
+      return {0.2627, 0.0593};
+  }
+  throw PixelError("a frame of an unknown colour space");
+}
+
+/// 3 × 4: from (Y, U, V, 1) of 8 bits to R, G, B.
+cv::Matx34d rgb_from_yuv(const YuvCoding& coding) {
+  const auto [red, blue] = luma_weights(coding.matrix);
+  const double green = 1.0 - red - blue;
+  const bool is_full = coding.range == YuvRange::full;
+  const double black = is_full ? 0.0 : 16.0;
+  const double luma = is_full ? 1.0 : 255.0 / 219.0;
+  const double chroma = is_full ? 1.0 : 255.0 / 224.0;
+  const double red_v = 2.0 * (1.0 - red) * chroma;
+  const double blue_u = 2.0 * (1.0 - blue) * chroma;
+  const double green_u = -blue_u * blue / green;
+  const double green_v = -red_v * red / green;
+  constexpr double kGray = 128.0;
+  return {luma, 0.0,     red_v,   -luma * black - kGray * red_v,
+          luma, green_u, green_v, -luma * black - kGray * (green_u + green_v),
+          luma, blue_u,  0.0,     -luma * black - kGray * blue_u};
+}
+
+/// Y at full size, U and V at a lower one, in any coding. OpenCV's own conversions from subsampled
+/// formats, much faster, know BT.601 with the limited range alone.
+cv::Mat yuv_to_rgb(const cv::Mat& y, const cv::Mat& u, const cv::Mat& v, const YuvCoding& coding) {
   cv::Mat full_u;
   cv::Mat full_v;
   cv::resize(u, full_u, y.size(), 0, 0, cv::INTER_NEAREST);
   cv::resize(v, full_v, y.size(), 0, 0, cv::INTER_NEAREST);
   cv::Mat merged;
-  cv::merge(std::array{y, full_v, full_u}, merged);
+  cv::merge(std::array{y, full_u, full_v}, merged);
   cv::Mat rgb;
-  cv::cvtColor(merged, rgb, cv::COLOR_YCrCb2RGB);
+  cv::transform(merged, rgb, rgb_from_yuv(coding));
   return rgb;
 }
 
-cv::Mat nv12_to_rgb(int width, int height, std::span<const PixelPlane> planes, YuvRange range) {
+cv::Mat nv12_to_rgb(int width, int height, std::span<const PixelPlane> planes,
+                    const YuvCoding& coding) {
   if (width % 2 != 0 || height % 2 != 0) {
     throw PixelError("an NV12 frame needs an even width and height");
   }
@@ -51,19 +84,19 @@ cv::Mat nv12_to_rgb(int width, int height, std::span<const PixelPlane> planes, Y
   const cv::Mat y = view(planes[0], height, width, CV_8UC1);
   const cv::Mat uv = view(chroma, height / 2, width / 2, CV_8UC2);
   cv::Mat rgb;
-  if (range == YuvRange::limited) {
+  if (coding == YuvCoding{}) {
     cv::cvtColorTwoPlane(y, uv, rgb, cv::COLOR_YUV2RGB_NV12);
     return rgb;
   }
   std::array<cv::Mat, 2> parts;
   cv::split(uv, parts.data());
-  return full_range_to_rgb(y, parts[0], parts[1]);
+  return yuv_to_rgb(y, parts[0], parts[1], coding);
 }
 
-cv::Mat yuyv_to_rgb(int width, int height, const PixelPlane& plane, YuvRange range) {
+cv::Mat yuyv_to_rgb(int width, int height, const PixelPlane& plane, const YuvCoding& coding) {
   if (width % 2 != 0) throw PixelError("a YUYV frame needs an even width");
   cv::Mat rgb;
-  if (range == YuvRange::limited) {
+  if (coding == YuvCoding{}) {
     cv::cvtColor(view(plane, height, width, CV_8UC2), rgb, cv::COLOR_YUV2RGB_YUYV);
     return rgb;
   }
@@ -74,7 +107,7 @@ cv::Mat yuyv_to_rgb(int width, int height, const PixelPlane& plane, YuvRange ran
   cv::Mat v;
   cv::extractChannel(pairs, u, 1);
   cv::extractChannel(pairs, v, 3);
-  return full_range_to_rgb(y, u, v);
+  return yuv_to_rgb(y, u, v, coding);
 }
 
 cv::Mat mjpeg_to_rgb(int width, int height, const PixelPlane& plane) {
@@ -101,7 +134,7 @@ cv::Mat mjpeg_to_rgb(int width, int height, const PixelPlane& plane) {
 }
 
 cv::Mat convert(PixelFormat format, int width, int height, std::span<const PixelPlane> planes,
-                YuvRange range) {
+                const YuvCoding& coding) {
   switch (format) {
     case PixelFormat::rgb24:
       return view(planes[0], height, width, CV_8UC3).clone();
@@ -111,9 +144,9 @@ cv::Mat convert(PixelFormat format, int width, int height, std::span<const Pixel
       return rgb;
     }
     case PixelFormat::nv12:
-      return nv12_to_rgb(width, height, planes, range);
+      return nv12_to_rgb(width, height, planes, coding);
     case PixelFormat::yuyv:
-      return yuyv_to_rgb(width, height, planes[0], range);
+      return yuyv_to_rgb(width, height, planes[0], coding);
     case PixelFormat::mjpeg:
       return mjpeg_to_rgb(width, height, planes[0]);
   }
@@ -123,10 +156,10 @@ cv::Mat convert(PixelFormat format, int width, int height, std::span<const Pixel
 }  // namespace
 
 cv::Mat to_rgb(PixelFormat format, int width, int height, std::span<const PixelPlane> planes,
-               YuvRange range) {
+               const YuvCoding& coding) {
   if (width < 1 || height < 1 || planes.empty()) throw PixelError("a frame without pixels");
   try {
-    return convert(format, width, height, planes, range);
+    return convert(format, width, height, planes, coding);
   } catch (const cv::Exception& error) {
     throw PixelError("a frame that OpenCV cannot convert: " + error.err);
   }

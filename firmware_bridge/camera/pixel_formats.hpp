@@ -23,6 +23,17 @@ enum class PixelFormat {
 /// Which numbers the YUV formats use: 16 to 235 for black to white, or 0 to 255.
 enum class YuvRange { limited, full };
 
+/// How Y, U and V were made from R, G and B: ITU-R BT.601-7, BT.709-6 or BT.2020-2.
+enum class YuvMatrix { bt601, bt709, bt2020 };
+
+/// The coding of a YUV stream; the default is what cameras use that don't tell.
+struct YuvCoding {
+  YuvMatrix matrix = YuvMatrix::bt601;
+  YuvRange range = YuvRange::limited;
+
+  friend bool operator==(const YuvCoding&, const YuvCoding&) = default;
+};
+
 /// A part of a frame. `bytes` is all that was written to it; `stride` the bytes from row to row.
 struct PixelPlane {
   std::span<const std::uint8_t> bytes;
@@ -37,9 +48,10 @@ class PixelError : public std::runtime_error {
 
 /// Converts a frame to height × width CV_8UC3 in the order R, G, B. `planes` has one element, or
 /// two for nv12 (one will do if it holds both, the second right after the first with the same
-/// stride). Chroma is taken after ITU-R BT.601; nv12 needs an even width and height, yuyv an even
-/// width. Throws PixelError when the bytes don't suffice; never reads beyond them.
+/// stride). `coding` is of the YUV formats; a JPEG file has its own (JFIF: BT.601, full range).
+/// nv12 needs an even width and height, yuyv an even width. Throws PixelError when the bytes don't
+/// suffice; never reads beyond them.
 cv::Mat to_rgb(PixelFormat format, int width, int height, std::span<const PixelPlane> planes,
-               YuvRange range = YuvRange::limited);
+               const YuvCoding& coding = {});
 
 }  // namespace biotomy::bridge

@@ -68,6 +68,24 @@ TEST(Configuration, WantsTheSocketOfTheSocketBackend) {
               refuses("expected \"unix://path\""));
 }
 
+TEST(Configuration, GivesTheTriggerToTheCameraThatIsSynchronised) {
+  const std::string line = "[lines.trigger]\nchip = \"gpiochip0\"\nline = \"23\"\n";
+  const auto with = [&](const std::string& camera, const std::string& lines) {
+    return changed("[camera]\nendpoint = \"unix://rig.sock\"",
+                   lines + "[camera]\nbackend = \"libcamera\"\n" + camera);
+  };
+  const Configuration free = with("", line)();
+  EXPECT_EQ(free.camera.libcamera.sync.mode, bridge::CameraSyncSettings::Mode::none);
+  EXPECT_TRUE(free.lines.gpiod.trigger);
+  const Configuration synchronised = with("sync = \"strobe\"", line)();
+  EXPECT_EQ(synchronised.camera.libcamera.sync.mode, bridge::CameraSyncSettings::Mode::strobe);
+  EXPECT_EQ(synchronised.camera.libcamera.sync.line.line, "23");
+  EXPECT_FALSE(synchronised.lines.gpiod.trigger);
+  EXPECT_THAT(with("sync = \"trigger\"", ""), refuses("camera.sync: needs a line"));
+  EXPECT_THAT(changed("[camera]", "[camera]\nsync = \"trigger\""),
+              refuses("camera.sync: \"trigger\" is not possible"));
+}
+
 TEST(Configuration, RefusesACodecThatTheStoreDoesNotKnow) {
   EXPECT_THAT(changed("[focus]", "[store]\ncodec = \"gif\"\n[focus]"), refuses("store.codec"));
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware_bridge/camera/libcamera_listing.hpp"
 #include "firmware_bridge/device_error.hpp"
 
 namespace biotomy::bridge {

@@ -11,10 +11,12 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
+constexpr YuvCoding kFull{.matrix = YuvMatrix::bt601, .range = YuvRange::full};
+
 cv::Mat convert(PixelFormat format, int width, int height, const Bytes& bytes, std::size_t stride,
-                YuvRange range = YuvRange::limited) {
+                const YuvCoding& coding = {}) {
   const std::array planes{PixelPlane{bytes, stride}};
-  return to_rgb(format, width, height, planes, range);
+  return to_rgb(format, width, height, planes, coding);
 }
 
 void expect_near(const cv::Vec3b& colour, int red, int green, int blue) {
@@ -50,7 +52,7 @@ TEST(PixelFormats, ConvertYuyv) {
   expect_near(image.at<cv::Vec3b>(0, 2), 255, 255, 255);
   expect_near(image.at<cv::Vec3b>(0, 3), 0, 0, 0);
   const Bytes full = {76, 85, 76, 255, 255, 128, 0, 128};
-  const cv::Mat full_image = convert(PixelFormat::yuyv, 4, 1, full, 8, YuvRange::full);
+  const cv::Mat full_image = convert(PixelFormat::yuyv, 4, 1, full, 8, kFull);
   expect_near(full_image.at<cv::Vec3b>(0, 1), 255, 0, 0);
   expect_near(full_image.at<cv::Vec3b>(0, 2), 255, 255, 255);
 }
@@ -63,8 +65,48 @@ TEST(PixelFormats, ConvertNv12InOnePlaneOrTwo) {
   const Bytes both = {81, 81, 0, 81, 81, 0, 90, 240};
   expect_near(convert(PixelFormat::nv12, 2, 2, both, 3).at<cv::Vec3b>(1, 1), 255, 0, 0);
   const Bytes full = {76, 76, 76, 76, 85, 255};
-  expect_near(convert(PixelFormat::nv12, 2, 2, full, 2, YuvRange::full).at<cv::Vec3b>(0, 0), 255, 0,
-              0);
+  expect_near(convert(PixelFormat::nv12, 2, 2, full, 2, kFull).at<cv::Vec3b>(0, 0), 255, 0, 0);
+}
+
+// Pure red after the other standards, limited: BT.709 63, 102, 240 and BT.2020 74, 97, 240.
+TEST(PixelFormats, HonourTheColourSpace) {
+  const Bytes bt709 = {63, 102, 63, 240};
+  const cv::Mat image = convert(PixelFormat::yuyv, 2, 1, bt709, 4,
+                                {.matrix = YuvMatrix::bt709, .range = YuvRange::limited});
+  expect_near(image.at<cv::Vec3b>(0, 0), 255, 0, 0);
+  const Bytes bt2020 = {74, 74, 74, 74, 97, 240};
+  const cv::Mat other = convert(PixelFormat::nv12, 2, 2, bt2020, 2,
+                                {.matrix = YuvMatrix::bt2020, .range = YuvRange::limited});
+  expect_near(other.at<cv::Vec3b>(1, 1), 255, 0, 0);
+  // In another standard these numbers are another colour.
+  EXPECT_LT(convert(PixelFormat::yuyv, 2, 1, bt709, 4).at<cv::Vec3b>(0, 0)[0], 245);
+}
+
+TEST(PixelFormats, KeepGraysGrayInEveryColourSpace) {
+  for (const YuvMatrix matrix : {YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020}) {
+    for (int level = 0; level < 256; level += 15) {
+      const auto luma = static_cast<std::uint8_t>(level);
+      const cv::Mat image = convert(PixelFormat::yuyv, 2, 1, {luma, 128, luma, 128}, 4,
+                                    {.matrix = matrix, .range = YuvRange::full});
+      EXPECT_EQ(image.at<cv::Vec3b>(0, 1), cv::Vec3b(luma, luma, luma));
+    }
+  }
+}
+
+TEST(PixelFormats, DecodeAJpegWithoutHuffmanTables) {
+  // As many USB cameras send it: the tables of ITU-T T.81, annex K.3, are meant.
+  Bytes file;
+  ASSERT_TRUE(cv::imencode(".jpg", cv::Mat(16, 24, CV_8UC3, cv::Scalar(0, 0, 255)), file));
+  for (std::size_t at = 2; at + 4 < file.size() && file[at + 1] != 0xDA;) {
+    const std::size_t length = 2U + file[at + 2] * 256U + file[at + 3];
+    const auto begin = file.begin() + static_cast<std::ptrdiff_t>(at);
+    if (file[at + 1] == 0xC4) {
+      file.erase(begin, begin + static_cast<std::ptrdiff_t>(length));
+    } else {
+      at += length;
+    }
+  }
+  expect_near(convert(PixelFormat::mjpeg, 24, 16, file, 0).at<cv::Vec3b>(8, 8), 254, 0, 0);
 }
 
 TEST(PixelFormats, DecodeAJpegPaddedWithZeros) {
