@@ -133,7 +133,9 @@ std::unique_ptr<libcamera::CameraConfiguration> with_viewfinder(
 }  // namespace
 
 std::string model_of(const libcamera::Camera& camera) {
-  return camera.properties().get(libcamera::properties::Model).value_or(camera.id());
+  // A string in older versions of libcamera, a view of one in newer ones.
+  const auto model = camera.properties().get(libcamera::properties::Model);
+  return model ? std::string(*model) : camera.id();
 }
 
 std::optional<FrameFormat> known_format(const libcamera::PixelFormat& format) {
