@@ -46,8 +46,9 @@ class GpioInput {
   virtual bool is_active() = 0;
 };
 
-/// An output that this process holds until the object is destroyed; it begins inactive. After that
-/// most chips go on driving the last level. Throws as GpioInput does.
+/// An output that this process holds until the object is destroyed; it begins inactive. What a chip
+/// does with a line that nobody holds is its own affair: some drive the last level on, others make
+/// it an input. Throws as GpioInput does.
 class GpioOutput {
  public:
   virtual ~GpioOutput() = default;

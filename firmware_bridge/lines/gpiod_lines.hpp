@@ -36,8 +36,8 @@ struct GpiodLinesSettings {
 /// that failed is requested anew by later calls, at most once a second, the chip being looked for
 /// again. An output that comes back is off. No call waits.
 ///
-/// Outputs go to off when it is destroyed. The kernel frees the lines of a process that was killed
-/// and most chips go on driving the last level: then the lamp stays as it was until the next start.
+/// Outputs go to off when it is destroyed. The kernel frees the lines of a process that was killed;
+/// its lamp stays on until the next start if the chip is one that goes on driving the last level.
 class GpiodLines final : public Lines {
  public:
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
