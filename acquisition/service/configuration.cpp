@@ -61,7 +61,8 @@ StageConfiguration read_stage(const CheckedTable& table) {
 bridge::GpioLineSettings read_line(const CheckedTable& table, bool required) {
   using enum bridge::LineBias;
   bridge::GpioLineSettings line;
-  line.chip = optional_text(table, "chip", "the GPIO chip: \"gpiochip0\" or its label");
+  line.chip = optional_text(
+      table, "chip", "the GPIO chip: \"gpiochip0\", its label, or a path as \"/dev/gpiochip0\"");
   line.line = optional_text(table, "line", "the line's name, or its offset as a text");
   line.active_low = table.get(FlagKey{.name = "active_low",
                                       .fallback = line.active_low,
@@ -77,6 +78,16 @@ bridge::GpioLineSettings read_line(const CheckedTable& table, bool required) {
                                     : as_is;
   if (required && line.chip.empty()) table.reject("chip", "missing; the gpiod backend needs it");
   if (required && line.line.empty()) table.reject("line", "missing; the gpiod backend needs it");
+  return line;
+}
+
+bridge::GpioLineSettings read_input_line(const CheckedTable& table, bool required) {
+  bridge::GpioLineSettings line = read_line(table, required);
+  line.edges = table.get(FlagKey{.name = "edges",
+                                 .fallback = line.edges,
+                                 .description = "see pulses between two ticks, too; without it, "
+                                                "as for a chip that has no interrupts, a pulse "
+                                                "shorter than a tick is lost"});
   return line;
 }
 
@@ -112,8 +123,13 @@ LinesConfiguration read_lines(const CheckedTable& table) {
   lines.endpoint = read_socket_endpoint(table, !gpiod);
   lines.response_timeout = duration(table, "response_timeout_ms", lines.response_timeout,
                                     "of the socket backend", 10, 10000);
-  lines.gpiod.estop = read_line(table.table("estop"), gpiod);
-  lines.gpiod.door = read_line(table.table("door"), gpiod);
+  lines.gpiod.debounce =
+      duration(table, "debounce_ms", lines.gpiod.debounce,
+               "of the gpiod backend: how long e-stop and door must have been safe, without an "
+               "edge, before they count as safe; danger counts at once, however short",
+               0, 100);
+  lines.gpiod.estop = read_input_line(table.table("estop"), gpiod);
+  lines.gpiod.door = read_input_line(table.table("door"), gpiod);
   lines.gpiod.lamp = read_line(table.table("lamp"), gpiod);
   lines.gpiod.trigger = read_optional_line(table.table("trigger"));
   lines.gpiod.tower_light = read_optional_line(table.table("tower_light"));

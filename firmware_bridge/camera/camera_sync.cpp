@@ -1,36 +1,44 @@
 #include "firmware_bridge/camera/camera_sync.hpp"
 
 #include <thread>
+#include <utility>
 
 #include "firmware_bridge/device_error.hpp"
+#include "firmware_bridge/lines/gpio_line_request.hpp"
 
 namespace biotomy::bridge {
 
-CameraSync::CameraSync(const CameraSyncSettings& settings) : settings_(settings) {
-  if (settings_.mode != CameraSyncSettings::Mode::none) {
-    line_.emplace(GpioLine::output(settings_.line));
-  }
+CameraSync::CameraSync(const CameraSyncSettings& settings, std::unique_ptr<GpioChips> chips)
+    : settings_(settings), chips_(std::move(chips)) {
+  if (settings_.mode == CameraSyncSettings::Mode::none) return;
+  line_.emplace(
+      "lines.trigger", [this] { return request_output(*chips_, settings_.line); },
+      std::chrono::steady_clock::now);
 }
 
 CameraSync::~CameraSync() {
   end_capture();
 }
 
+void CameraSync::set(bool active) {
+  line_->use([active](GpioOutput& line) { line.set_active(active); });
+}
+
 void CameraSync::begin_capture() {
-  if (settings_.mode == CameraSyncSettings::Mode::strobe) line_->set_active(true);
+  if (settings_.mode == CameraSyncSettings::Mode::strobe) set(true);
 }
 
 void CameraSync::trigger() {
   if (!is_trigger()) return;
-  line_->set_active(true);
+  set(true);
   std::this_thread::sleep_for(settings_.pulse);
-  line_->set_active(false);
+  set(false);
 }
 
 void CameraSync::end_capture() noexcept {
-  if (!line_) return;
+  if (!line_ || line_->is_lost()) return;
   try {
-    line_->set_active(false);
+    set(false);
   } catch (const DeviceError&) {
     // The chip is gone: the next capture says so.
   }

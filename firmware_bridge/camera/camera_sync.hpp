@@ -1,9 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
-#include "firmware_bridge/lines/gpio_line.hpp"
+#include "firmware_bridge/lines/gpio_chips.hpp"
+#include "firmware_bridge/lines/gpio_line_settings.hpp"
+#include "firmware_bridge/lines/recovering_line.hpp"
 
 namespace biotomy::bridge {
 
@@ -20,10 +23,11 @@ struct CameraSyncSettings {
 };
 
 /// The line, as a capture uses it. It is inactive between captures and when this is destroyed.
-/// Every call throws DeviceError.
+/// Every call throws DeviceError; a line whose chip went away is requested anew by later ones.
 class CameraSync {
  public:
-  explicit CameraSync(const CameraSyncSettings& settings);
+  explicit CameraSync(const CameraSyncSettings& settings,
+                      std::unique_ptr<GpioChips> chips = make_gpio_chips());
   ~CameraSync();
   CameraSync(const CameraSync&) = delete;
   CameraSync& operator=(const CameraSync&) = delete;
@@ -35,8 +39,11 @@ class CameraSync {
   void end_capture() noexcept;
 
  private:
+  void set(bool active);
+
   CameraSyncSettings settings_;
-  std::optional<GpioLine> line_;
+  std::unique_ptr<GpioChips> chips_;
+  std::optional<RecoveringLine<GpioOutput>> line_;
 };
 
 }  // namespace biotomy::bridge

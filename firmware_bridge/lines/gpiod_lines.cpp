@@ -1,59 +1,97 @@
 #include "firmware_bridge/lines/gpiod_lines.hpp"
 
+#include <utility>
+
 #include "firmware_bridge/device_error.hpp"
+#include "firmware_bridge/lines/gpio_line_request.hpp"
 
 namespace biotomy::bridge {
 
 namespace {
 
-std::optional<GpioLine> optional_output(const std::optional<GpioLineSettings>& settings) {
-  if (!settings) return std::nullopt;
-  return GpioLine::output(*settings);
-}
-
-/// A line that can't be read is reported in its unsafe state, which is "active".
-bool active_or_unreadable(GpioLine& line, std::string& failure) {
-  try {
-    return line.is_active();
-  } catch (const DeviceError& error) {
-    failure = error.what();
-    return true;
-  }
-}
-
-void switch_off(GpioLine& line) {
-  try {
-    line.set_active(false);
-  } catch (const DeviceError&) {
-    // The chip is gone: there is nothing left to switch, and nobody to tell in a destructor.
-  }
+/// As the line's table in the configuration is called.
+std::string table_of(const char* role) {
+  return std::string("lines.") + role;
 }
 
 }  // namespace
 
-GpiodLines::GpiodLines(const GpiodLinesSettings& settings)
-    : estop_(GpioLine::input(settings.estop)),
-      door_(GpioLine::input(settings.door)),
-      lamp_(GpioLine::output(settings.lamp)),
-      trigger_(optional_output(settings.trigger)),
-      tower_light_(optional_output(settings.tower_light)) {}
+GpiodLines::GpiodLines(const GpiodLinesSettings& settings, std::unique_ptr<GpioChips> chips,
+                       Clock clock)
+    : chips_(std::move(chips)),
+      clock_(std::move(clock)),
+      debounce_(settings.debounce),
+      estop_(open_input("estop", settings.estop)),
+      door_(open_input("door", settings.door)),
+      lamp_(open_output(OutputRole::lamp, settings.lamp)),
+      trigger_(open_output(OutputRole::trigger, settings.trigger)),
+      tower_light_(open_output(OutputRole::tower_light, settings.tower_light)) {}
 
 GpiodLines::~GpiodLines() {
-  switch_off(lamp_);
-  if (trigger_) switch_off(*trigger_);
-  if (tower_light_) switch_off(*tower_light_);
+  for_each_output([](Output& output) {
+    if (output.is_lost()) return;
+    try {
+      output.use([](GpioOutput& line) { line.set_active(false); });
+    } catch (const DeviceError&) {
+      // The chip is gone: there is nothing left to switch, and nobody to tell in a destructor.
+    }
+  });
 }
 
 SafetyInputs GpiodLines::read_inputs() {
   SafetyInputs inputs;
-  inputs.estop_pressed = active_or_unreadable(estop_, inputs.failure);
-  inputs.door_open = active_or_unreadable(door_, inputs.failure);
+  inputs.estop_pressed = is_unsafe(estop_, inputs.failure);
+  inputs.door_open = is_unsafe(door_, inputs.failure);
+  // What was on when its chip went away must not stay on when it comes back.
+  for_each_output([](Output& output) {
+    try {
+      output.regain();
+    } catch (const DeviceError&) {
+      // `set` tells whoever wants to switch it.
+    }
+  });
   return inputs;
 }
 
-GpioLine& GpiodLines::output(OutputRole role) {
+void GpiodLines::set(OutputRole role, bool on) {
+  output(role).use([on](GpioOutput& line) { line.set_active(on); });
+}
+
+GpiodLines::Input GpiodLines::open_input(const char* role, const GpioLineSettings& settings) {
+  return {.line = {table_of(role), [this, settings] { return request_input(*chips_, settings); },
+                   clock_},
+          .debounce = InputDebounce(debounce_)};
+}
+
+GpiodLines::Output GpiodLines::open_output(OutputRole role, const GpioLineSettings& settings) {
+  return {table_of(to_string(role)), [this, settings] { return request_output(*chips_, settings); },
+          clock_};
+}
+
+std::optional<GpiodLines::Output> GpiodLines::open_output(
+    OutputRole role, const std::optional<GpioLineSettings>& settings) {
+  if (!settings) return std::nullopt;
+  return open_output(role, *settings);
+}
+
+bool GpiodLines::is_unsafe(Input& input, std::string& failure) {
+  try {
+    // The level is read after the edges were taken: one that comes in between is the next call's.
+    const auto [had_edges, is_active] = input.line.use([](GpioInput& line) {
+      const bool edges = line.take_edges();
+      return std::pair(edges, line.is_active());
+    });
+    return input.debounce.look(had_edges, is_active, clock_());
+  } catch (const DeviceError& error) {
+    input.debounce.doubt(clock_());
+    failure += (failure.empty() ? "" : "; ") + std::string(error.what());
+    return true;
+  }
+}
+
+GpiodLines::Output& GpiodLines::output(OutputRole role) {
   if (role == OutputRole::lamp) return lamp_;
-  std::optional<GpioLine>& line = role == OutputRole::trigger ? trigger_ : tower_light_;
+  std::optional<Output>& line = role == OutputRole::trigger ? trigger_ : tower_light_;
   if (!line) {
     throw DeviceError(DeviceError::Kind::configuration, std::string("lines: no line is set for ") +
                                                             to_string(role) +
@@ -62,8 +100,11 @@ GpioLine& GpiodLines::output(OutputRole role) {
   return *line;
 }
 
-void GpiodLines::set(OutputRole role, bool on) {
-  output(role).set_active(on);
+template <class Act>
+void GpiodLines::for_each_output(Act act) {
+  act(lamp_);
+  if (trigger_) act(*trigger_);
+  if (tower_light_) act(*tower_light_);
 }
 
 }  // namespace biotomy::bridge

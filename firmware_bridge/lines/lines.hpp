@@ -6,8 +6,9 @@ namespace biotomy::bridge {
 
 enum class OutputRole { lamp, trigger, tower_light };
 
-/// The safety inputs as they are, polarity already applied. An input that cannot be read is
-/// reported in its unsafe state, with the reason.
+/// The safety inputs, polarity already applied: true if it is so, or was so at any time since the
+/// last call, as far as the back end can see that. An input that cannot be read is reported in its
+/// unsafe state, with the reason.
 struct SafetyInputs {
   bool estop_pressed = true;
   bool door_open = true;
