@@ -12,7 +12,8 @@ CameraSync::CameraSync(const CameraSyncSettings& settings, std::unique_ptr<GpioC
     : settings_(settings), chips_(std::move(chips)) {
   if (settings_.mode == CameraSyncSettings::Mode::none) return;
   line_.emplace(
-      "lines.trigger", [this] { return request_output(*chips_, settings_.line); },
+      "lines.trigger",
+      [request = GpioLineRequest(*chips_, settings_.line)]() mutable { return request.output(); },
       std::chrono::steady_clock::now);
 }
 

@@ -19,7 +19,7 @@ class Unusable : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return '"' + text + '"';
 }
 
@@ -67,7 +67,7 @@ struct Survey {
   std::string text() const {
     std::vector<std::string> parts;
     for (const GpioChipInfo& chip : chips) {
-      parts.push_back(chip.name + " (label " + quoted(chip.label) + ", " +
+      parts.push_back(chip.name + " (label " + in_quotes(chip.label) + ", " +
                       std::to_string(chip.lines.size()) + " lines)");
     }
     for (const std::filesystem::path& device : denied) {
@@ -125,7 +125,7 @@ unsigned int find_line(const GpioChipInfo& chip, const std::string& wanted) {
 
   const std::string nearest = nearest_name(wanted, names);
   throw Unusable("the chip has no line of that name or offset" +
-                 (nearest.empty() ? "" : "; did you mean " + quoted(nearest) + "?") +
+                 (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
                  (chip.lines.empty()
                       ? "; it has none at all"
                       : "; its offsets are 0 to " + std::to_string(chip.lines.size() - 1) + ", " +
@@ -150,9 +150,9 @@ std::string holder_of(GpioChips& chips, const GpioRequest& request) {
   try {
     const GpioLineInfo line = chips.describe(request.device).lines.at(request.offset);
     if (line.consumer == kGpioConsumer) {
-      return quoted(line.consumer) + ": another daemon, or another of the roles in [lines]";
+      return in_quotes(line.consumer) + ": another daemon, or another of the roles in [lines]";
     }
-    if (!line.consumer.empty()) return quoted(line.consumer);
+    if (!line.consumer.empty()) return in_quotes(line.consumer);
   } catch (const std::exception&) {
     // Who held it has gone meanwhile, or the whole chip has.
   }
@@ -182,40 +182,43 @@ std::string reason(GpioChips& chips, const GpioRequest& request, const std::syst
   return "cannot be had: " + cause;
 }
 
-template <class Request>
-auto request_line(GpioChips& chips, const GpioLineSettings& settings, bool edges,
-                  Request request_as) {
+}  // namespace
+
+template <class Ask>
+auto GpioLineRequest::request(bool edges, Ask ask) {
   try {
-    const GpioChipInfo chip = find_chip(chips, settings.chip);
-    const GpioRequest request{.device = chip.device,
-                              .offset = find_line(chip, settings.line),
-                              .active_low = settings.active_low,
-                              .bias = settings.bias,
-                              .edges = edges};
+    const GpioChipInfo chip = find_chip(*chips_, settings_.chip);
+    if (label_ && chip.label != *label_) {
+      throw Unusable("this is another chip now, with the label " + in_quotes(chip.label) +
+                     " in place of " + in_quotes(*label_) +
+                     "; name the chip by its label, since numbers change");
+    }
+    const GpioRequest line{.device = chip.device,
+                           .offset = find_line(chip, settings_.line),
+                           .active_low = settings_.active_low,
+                           .bias = settings_.bias,
+                           .edges = edges};
     try {
-      return request_as(request);
+      auto held = ask(line);
+      label_ = chip.label;
+      return held;
     } catch (const std::system_error& error) {
-      throw Unusable(reason(chips, request, error));
+      throw Unusable(reason(*chips_, line, error));
     }
   } catch (const Unusable& error) {
-    throw DeviceError(DeviceError::Kind::configuration, name_of(settings) + ": " + error.what());
+    throw DeviceError(
+        DeviceError::Kind::configuration,
+        "line " + settings_.line + " of GPIO chip " + settings_.chip + ": " + error.what());
   }
 }
 
-}  // namespace
-
-std::string name_of(const GpioLineSettings& settings) {
-  return "line " + settings.line + " of GPIO chip " + settings.chip;
+std::unique_ptr<GpioInput> GpioLineRequest::input() {
+  return request(settings_.edges,
+                 [this](const GpioRequest& line) { return chips_->request_input(line); });
 }
 
-std::unique_ptr<GpioInput> request_input(GpioChips& chips, const GpioLineSettings& settings) {
-  return request_line(chips, settings, settings.edges,
-                      [&](const GpioRequest& request) { return chips.request_input(request); });
-}
-
-std::unique_ptr<GpioOutput> request_output(GpioChips& chips, const GpioLineSettings& settings) {
-  return request_line(chips, settings, false,
-                      [&](const GpioRequest& request) { return chips.request_output(request); });
+std::unique_ptr<GpioOutput> GpioLineRequest::output() {
+  return request(false, [this](const GpioRequest& line) { return chips_->request_output(line); });
 }
 
 }  // namespace biotomy::bridge

@@ -58,13 +58,16 @@ void GpiodLines::set(OutputRole role, bool on) {
 }
 
 GpiodLines::Input GpiodLines::open_input(const char* role, const GpioLineSettings& settings) {
-  return {.line = {table_of(role), [this, settings] { return request_input(*chips_, settings); },
-                   clock_},
-          .debounce = InputDebounce(debounce_)};
+  return {
+      .line = {table_of(role),
+               [request = GpioLineRequest(*chips_, settings)]() mutable { return request.input(); },
+               clock_},
+      .debounce = InputDebounce(debounce_)};
 }
 
 GpiodLines::Output GpiodLines::open_output(OutputRole role, const GpioLineSettings& settings) {
-  return {table_of(to_string(role)), [this, settings] { return request_output(*chips_, settings); },
+  return {table_of(to_string(role)),
+          [request = GpioLineRequest(*chips_, settings)]() mutable { return request.output(); },
           clock_};
 }
 
