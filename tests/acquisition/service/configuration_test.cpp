@@ -60,6 +60,21 @@ TEST(Configuration, WantsTheLinesOfTheGpiodBackend) {
               refuses("lines.estop.chip: missing"));
 }
 
+TEST(Configuration, TakesHowTheSafetyInputsAreWatched) {
+  const auto lines = [](const std::string& debounce) {
+    return changed("[lines]\nendpoint = \"unix://rig.sock\"",
+                   "[lines]\nbackend = \"gpiod\"\n" + debounce +
+                       "\nestop = { chip = \"rig\", line = \"ESTOP\" }\n"
+                       "door = { chip = \"rig\", line = \"1\", edges = false }\n"
+                       "lamp = { chip = \"rig\", line = \"LAMP\" }\n");
+  };
+  const bridge::GpiodLinesSettings read = lines("debounce_ms = 7")().lines.gpiod;
+  EXPECT_EQ(read.debounce, std::chrono::milliseconds(7));
+  EXPECT_TRUE(read.estop.edges);
+  EXPECT_FALSE(read.door.edges);
+  EXPECT_THAT(lines("debounce_ms = 101"), refuses("lines.debounce_ms: 101 is out of range"));
+}
+
 TEST(Configuration, WantsTheSocketOfTheSocketBackend) {
   EXPECT_THAT(changed("[camera]\nendpoint = \"unix://rig.sock\"", "[camera]"),
               refuses("camera.endpoint: missing"));
