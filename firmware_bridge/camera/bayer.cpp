@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -50,28 +51,28 @@ std::size_t row_bytes_of(const BayerFormat& format, int width) {
   return format.bits == 8 ? columns : 2 * columns;
 }
 
-void unpack_10(const std::uint8_t* bytes, std::uint16_t* values, int count) {
-  for (int i = 0; i < count; ++i) {
+void unpack_10(const std::uint8_t* bytes, std::uint16_t* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* group = bytes + i / 4 * 5;
     values[i] = static_cast<std::uint16_t>(group[i % 4] << 2 | (group[4] >> 2 * (i % 4) & 3));
   }
 }
 
-void unpack_12(const std::uint8_t* bytes, std::uint16_t* values, int count) {
-  for (int i = 0; i < count; ++i) {
+void unpack_12(const std::uint8_t* bytes, std::uint16_t* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* group = bytes + i / 2 * 3;
     values[i] = static_cast<std::uint16_t>(group[i % 2] << 4 | (group[2] >> 4 * (i % 2) & 15));
   }
 }
 
 void unpack_row(const BayerFormat& format, const std::uint8_t* bytes, std::uint16_t* values,
-                int count) {
+                std::size_t count) {
   if (format.is_packed) {
     (format.bits == 10 ? unpack_10 : unpack_12)(bytes, values, count);
   } else if (format.bits == 8) {
     std::copy_n(bytes, count, values);
   } else {
-    std::memcpy(values, bytes, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
+    std::memcpy(values, bytes, sizeof(std::uint16_t) * count);
   }
 }
 
@@ -108,7 +109,7 @@ void apply_srgb(cv::Mat& image) {
   cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row) {
       auto* values = image.ptr<std::uint16_t>(row);
-      std::transform(values, values + 3 * image.cols, values,
+      std::transform(values, values + 3 * static_cast<std::ptrdiff_t>(image.cols), values,
                      [&](std::uint16_t value) { return curve[value]; });
     }
   });
@@ -169,7 +170,7 @@ cv::Mat demosaic(const BayerFormat& format, int width, int height, const PixelPl
     for (int row = rows.start; row < rows.end; ++row) {
       auto* values = mosaic.ptr<std::uint16_t>(row);
       unpack_row(format, plane.bytes.data() + static_cast<std::size_t>(row) * plane.stride, values,
-                 width);
+                 static_cast<std::size_t>(width));
       const std::array tables{
           &levels[static_cast<std::size_t>(channel_of(format.order, row % 2, 0))],
           &levels[static_cast<std::size_t>(channel_of(format.order, row % 2, 1))]};
