@@ -11,6 +11,7 @@
 #include "acquisition/focus/depth_of_field.hpp"
 #include "acquisition/job/focus_actuators.hpp"
 #include "acquisition/job/preflight.hpp"
+#include "acquisition/job/preflight_complaints.hpp"
 
 namespace biotomy::acquisition {
 namespace {

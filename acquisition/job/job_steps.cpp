@@ -30,7 +30,7 @@ void Job::begin_preflight() {
 void Job::begin_inspection() {
   identity_ = ask_identity(parts_.stage);
   if (!identity_) return;
-  if (const auto complaint = stage_complaint(settings_, *identity_)) throw StepFailure(*complaint);
+  check_stage(settings_, *identity_);
   inspection_ = run_on(
       parts_.worker, [settings = settings_, camera = &parts_.camera, surroundings = surroundings_] {
         return inspect(settings, *camera, surroundings);

@@ -27,14 +27,8 @@ struct PreflightFindings {
 /// reason to stop: ask again at the next tick. Throws DeviceError.
 std::optional<bridge::StageIdentity> ask_identity(bridge::Stage& stage);
 
-/// Why nothing may move by this stage: nobody would stop it if the daemon hung. Nothing when it
-/// may.
-std::optional<std::string> watchdog_complaint(const SafetyLimits& limits,
-                                              const bridge::StageIdentity& stage);
-
-/// Why this stage cannot do this job; nothing when it can.
-std::optional<std::string> stage_complaint(const JobSettings& settings,
-                                           const bridge::StageIdentity& stage);
+/// Throws StepFailure when this stage cannot do this job.
+void check_stage(const JobSettings& settings, const bridge::StageIdentity& stage);
 
 /// Asks the camera, then begins or opens the sample. To be called by the worker. Throws what they
 /// throw, and StepFailure when the disk is too full.

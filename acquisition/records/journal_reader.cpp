@@ -7,6 +7,7 @@
 
 #include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_schema.hpp"
+#include "acquisition/records/journal_summary.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -101,6 +102,10 @@ std::int64_t JournalReader::committed_count() const {
   return with_journal(state_->path, [&] {
     return state_->database.execAndGet("SELECT count(*) FROM layers").getInt64();
   });
+}
+
+JournalSummary JournalReader::summary() const {
+  return with_journal(state_->path, [&] { return summary_of(state_->database); });
 }
 
 std::uint32_t JournalReader::last_sequence() const {

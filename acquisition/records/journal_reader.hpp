@@ -26,6 +26,8 @@ class JournalReader {
 
   std::int64_t committed_count() const;
 
+  JournalSummary summary() const;
+
   /// The highest number of a command in it; 0 if none.
   std::uint32_t last_sequence() const;
 

@@ -9,6 +9,7 @@
 #include "acquisition/quality/metrics_json.hpp"
 #include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_schema.hpp"
+#include "acquisition/records/journal_summary.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/durable_file.hpp"
 
@@ -235,69 +236,7 @@ void LayerJournal::commit_layer(const AttemptRow& attempt, std::uint64_t bytes,
 }
 
 JournalSummary LayerJournal::summary() const {
-  return with_journal(state_->path, [&] {
-    JournalSummary summary;
-    SQLite::Statement last(state_->database,
-                           "SELECT count(*), coalesce(max(layer), 0) FROM layers");
-    last.executeStep();
-    summary.last_committed = last.getColumn(1).getInt64();
-    if (last.getColumn(0).getInt64() != summary.last_committed) {
-      throw JournalError("the journal " + state_->path.string() +
-                         " has committed layers with gaps between them: it is damaged");
-    }
-
-    SQLite::Statement attempt(state_->database,
-                              "SELECT coalesce(max(attempt), 0) FROM attempts WHERE layer = ?");
-    attempt.bind(1, summary.last_committed + 1);
-    attempt.executeStep();
-    summary.last_attempt = attempt.getColumn(0).getInt();
-
-    SQLite::Statement bytes(state_->database, "SELECT bytes FROM layers WHERE layer = ?");
-    bytes.bind(1, summary.last_committed);
-    if (bytes.executeStep()) {
-      summary.last_layer_bytes = static_cast<std::uint64_t>(bytes.getColumn(0).getInt64());
-    }
-
-    SQLite::Statement grind(state_->database,
-                            "SELECT sequence, layer, target_um, ground_before_um, count_before, "
-                            "coalesce(result, '') FROM grinds ORDER BY sequence DESC LIMIT 1");
-    if (grind.executeStep()) {
-      summary.last_sequence = static_cast<std::uint32_t>(grind.getColumn(0).getInt64());
-      summary.last_grind = GrindRow{.sequence = summary.last_sequence,
-                                    .layer = grind.getColumn(1).getInt64(),
-                                    .target = {grind.getColumn(2).getDouble()},
-                                    .ground_before = {grind.getColumn(3).getDouble()},
-                                    .count_before = grind.getColumn(4).getInt64(),
-                                    .finished = grind.getColumn(5).getString() ==
-                                                bridge::to_string(bridge::CommandResult::done)};
-    }
-
-    summary.last_event_at =
-        state_->database
-            .execAndGet("SELECT coalesce((SELECT at FROM events ORDER BY id DESC LIMIT 1), '')")
-            .getString();
-
-    SQLite::Statement focus(state_->database,
-                            "SELECT layer, why, column_um, sharpness FROM focus_sweeps "
-                            "WHERE found = 1 ORDER BY id DESC LIMIT 1");
-    if (focus.executeStep()) {
-      summary.last_focus = FocusRow{.layer = focus.getColumn(0).getInt64(),
-                                    .why = focus.getColumn(1).getString(),
-                                    .column = {focus.getColumn(2).getDouble()},
-                                    .sharpness = focus.getColumn(3).getDouble(),
-                                    .found = true,
-                                    .points = {},
-                                    .lean = {}};
-    }
-
-    SQLite::Statement constants(state_->database,
-                                "SELECT name, value FROM constants ORDER BY name");
-    while (constants.executeStep()) {
-      summary.constants.push_back(
-          {constants.getColumn(0).getString(), constants.getColumn(1).getString()});
-    }
-    return summary;
-  });
+  return with_journal(state_->path, [&] { return summary_of(state_->database); });
 }
 
 }  // namespace biotomy::acquisition

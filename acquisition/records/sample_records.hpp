@@ -75,7 +75,6 @@ class SampleRecords {
 
  private:
   AttemptRow row_of(const JudgedFrame& frame) const;
-  void check_committed_files() const;
 
   reconstruct::SampleFolder sample_;
   StorePlan store_;

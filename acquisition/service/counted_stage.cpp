@@ -65,6 +65,10 @@ bridge::StageIdentity CountedStage::identify() {
   return counted("identify", [&] { return stage_.identify(); });
 }
 
+bridge::StageStatus CountedStage::look() {
+  return counted("look", [&] { return stage_.look(); });
+}
+
 bridge::StageStatus CountedStage::exchange(std::uint16_t heartbeat) {
   return counted("exchange", [&] { return stage_.exchange(heartbeat); });
 }

@@ -37,6 +37,7 @@ class CountedStage final : public bridge::Stage {
   CountedStage(bridge::Stage& stage, LinkCounts& counts) : stage_(stage), counts_(counts) {}
 
   bridge::StageIdentity identify() override;
+  bridge::StageStatus look() override;
   bridge::StageStatus exchange(std::uint16_t heartbeat) override;
   void issue(std::uint32_t sequence, const bridge::StageCommand& command) override;
 

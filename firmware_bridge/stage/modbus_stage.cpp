@@ -204,7 +204,10 @@ StageStatus ModbusStage::exchange(std::uint16_t heartbeat) {
   std::vector<std::uint16_t> registers(static_cast<std::size_t>(beat.width()));
   encode(beat, heartbeat, registers);
   bus_->write(beat.address, registers);
+  return look();
+}
 
+StageStatus ModbusStage::look() {
   const Snapshot snapshot = read(status_blocks_);
   const auto interlocks = snapshot.integer<std::uint16_t>("interlocks");
   const auto outputs = snapshot.integer<std::uint16_t>("outputs");

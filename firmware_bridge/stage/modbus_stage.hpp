@@ -23,6 +23,7 @@ class ModbusStage final : public Stage {
 
   /// Throws DeviceError (configuration) if map_magic or map_version are not those of the map.
   StageIdentity identify() override;
+  StageStatus look() override;
   StageStatus exchange(std::uint16_t heartbeat) override;
 
   /// Throws DeviceError (refused), before anything is sent, for a position, duration or speed that

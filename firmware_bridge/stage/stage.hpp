@@ -91,6 +91,10 @@ class Stage {
 
   virtual StageIdentity identify() = 0;
 
+  /// Reads one snapshot of the status and writes nothing: a controller that has heard no heartbeat
+  /// yet does not begin to watch for the next.
+  virtual StageStatus look() = 0;
+
   /// Writes the daemon's heartbeat and reads one snapshot of the status.
   virtual StageStatus exchange(std::uint16_t heartbeat) = 0;
 

@@ -36,10 +36,15 @@ bridge::StageIdentity FakeStage::identify() {
   return identity;
 }
 
-bridge::StageStatus FakeStage::exchange(std::uint16_t) {
-  on_exchange();
+bridge::StageStatus FakeStage::look() {
   if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (!heart_stopped) ++status.controller_heartbeat;
+  return status;
+}
+
+bridge::StageStatus FakeStage::exchange(std::uint16_t) {
+  on_exchange();
+  look();
   if (under_way_ && --exchanges_left_ <= 0) finish();
   aim();
   return status;

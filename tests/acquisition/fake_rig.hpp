@@ -52,6 +52,7 @@ struct FakeStage : bridge::Stage {
 
   FakeStage();
   bridge::StageIdentity identify() override;
+  bridge::StageStatus look() override;
   bridge::StageStatus exchange(std::uint16_t heartbeat) override;
   void issue(std::uint32_t sequence, const bridge::StageCommand& command) override;
 

@@ -94,6 +94,10 @@ bridge::StageIdentity TwinColumn::identify() {
 bridge::StageStatus TwinColumn::exchange(std::uint16_t) {
   constexpr double kTickS = 0.02;
   optics_.mover.advance(kTickS);
+  return look();
+}
+
+bridge::StageStatus TwinColumn::look() {
   bridge::StageStatus status;
   status.state = bridge::ControllerState::idle;
   status.last_result = bridge::CommandResult::done;

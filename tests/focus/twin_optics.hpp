@@ -43,6 +43,7 @@ class TwinColumn : public bridge::Stage {
  public:
   explicit TwinColumn(TwinOptics& optics) : optics_(optics) {}
   bridge::StageIdentity identify() override;
+  bridge::StageStatus look() override;
   bridge::StageStatus exchange(std::uint16_t heartbeat) override;
   void issue(std::uint32_t sequence, const bridge::StageCommand& command) override;
 

@@ -118,6 +118,11 @@ TEST_F(ModbusStageTest, ExchangesInOneWriteAndOneRead) {
   EXPECT_EQ(written("daemon_heartbeat"), 77);
 }
 
+TEST_F(ModbusStageTest, LooksWithoutAHeartbeat) {
+  stage_.look();
+  EXPECT_THAT(state_.requests, ::testing::ElementsAre("read 2 32"));
+}
+
 TEST_P(ModbusStageOfAnyMap, ReportsTheStatusInItsUnits) {
   put("controller_state", 3);
   put("fault_code", 2);

@@ -1,0 +1,70 @@
+#include "acquisition/records/journal_summary.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "acquisition/records/journal_error.hpp"
+
+namespace biotomy::acquisition {
+
+JournalSummary summary_of(SQLite::Database& database) {
+  JournalSummary summary;
+  SQLite::Statement last(database, "SELECT count(*), coalesce(max(layer), 0) FROM layers");
+  last.executeStep();
+  summary.last_committed = last.getColumn(1).getInt64();
+  if (last.getColumn(0).getInt64() != summary.last_committed) {
+    throw JournalError("the journal " + database.getFilename() +
+                       " has committed layers with gaps between them: it is damaged");
+  }
+
+  SQLite::Statement attempt(database,
+                            "SELECT coalesce(max(attempt), 0) FROM attempts WHERE layer = ?");
+  attempt.bind(1, summary.last_committed + 1);
+  attempt.executeStep();
+  summary.last_attempt = attempt.getColumn(0).getInt();
+
+  SQLite::Statement bytes(database, "SELECT bytes FROM layers WHERE layer = ?");
+  bytes.bind(1, summary.last_committed);
+  if (bytes.executeStep()) {
+    summary.last_layer_bytes = static_cast<std::uint64_t>(bytes.getColumn(0).getInt64());
+  }
+
+  SQLite::Statement grind(database,
+                          "SELECT sequence, layer, target_um, ground_before_um, count_before, "
+                          "coalesce(result, '') FROM grinds ORDER BY sequence DESC LIMIT 1");
+  if (grind.executeStep()) {
+    summary.last_sequence = static_cast<std::uint32_t>(grind.getColumn(0).getInt64());
+    summary.last_grind = GrindRow{.sequence = summary.last_sequence,
+                                  .layer = grind.getColumn(1).getInt64(),
+                                  .target = {grind.getColumn(2).getDouble()},
+                                  .ground_before = {grind.getColumn(3).getDouble()},
+                                  .count_before = grind.getColumn(4).getInt64(),
+                                  .finished = grind.getColumn(5).getString() ==
+                                              bridge::to_string(bridge::CommandResult::done)};
+  }
+
+  summary.last_event_at =
+      database.execAndGet("SELECT coalesce((SELECT at FROM events ORDER BY id DESC LIMIT 1), '')")
+          .getString();
+
+  SQLite::Statement focus(database,
+                          "SELECT layer, why, column_um, sharpness FROM focus_sweeps "
+                          "WHERE found = 1 ORDER BY id DESC LIMIT 1");
+  if (focus.executeStep()) {
+    summary.last_focus = FocusRow{.layer = focus.getColumn(0).getInt64(),
+                                  .why = focus.getColumn(1).getString(),
+                                  .column = {focus.getColumn(2).getDouble()},
+                                  .sharpness = focus.getColumn(3).getDouble(),
+                                  .found = true,
+                                  .points = {},
+                                  .lean = {}};
+  }
+
+  SQLite::Statement constants(database, "SELECT name, value FROM constants ORDER BY name");
+  while (constants.executeStep()) {
+    summary.constants.push_back(
+        {constants.getColumn(0).getString(), constants.getColumn(1).getString()});
+  }
+  return summary;
+}
+
+}  // namespace biotomy::acquisition
