@@ -13,7 +13,8 @@ namespace biotomy::bridge {
 inline constexpr const char* kGpioConsumer = "biotomyd";
 
 struct GpioLineInfo {
-  std::string name;      ///< empty: it has none
+  std::string name;  ///< empty: it has none
+  bool is_output = false;
   bool is_used = false;  ///< held by a process or by the kernel itself
   std::string consumer;  ///< who holds it, as far as that one gave a name
 };

@@ -92,8 +92,10 @@ class SystemChips final : public GpioChips {
     GpioChipInfo info{.device = device, .name = chip.name(), .label = chip.label(), .lines = {}};
     for (unsigned int offset = 0; offset < chip.num_lines(); ++offset) {
       const gpiod::line line = chip.get_line(offset);
-      info.lines.push_back(
-          {.name = line.name(), .is_used = line.is_used(), .consumer = line.consumer()});
+      info.lines.push_back({.name = line.name(),
+                            .is_output = line.direction() == gpiod::line::DIRECTION_OUTPUT,
+                            .is_used = line.is_used(),
+                            .consumer = line.consumer()});
     }
     return info;
   }

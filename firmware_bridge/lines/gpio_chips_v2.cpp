@@ -109,8 +109,10 @@ class SystemChips final : public GpioChips {
       for (std::size_t offset = 0; offset < about.num_lines(); ++offset) {
         const gpiod::line_info line =
             chip.get_line_info(gpiod::line::offset(static_cast<unsigned int>(offset)));
-        info.lines.push_back(
-            {.name = line.name(), .is_used = line.used(), .consumer = line.consumer()});
+        info.lines.push_back({.name = line.name(),
+                              .is_output = line.direction() == gpiod::line::direction::OUTPUT,
+                              .is_used = line.used(),
+                              .consumer = line.consumer()});
       }
       return info;
     });
