@@ -16,6 +16,17 @@ std::string milliseconds(std::chrono::milliseconds value) {
   return std::to_string(value.count()) + " ms";
 }
 
+bool is_in_window(const SafetyLimits& limits, double block_temperature_c) {
+  return block_temperature_c >= limits.block_temperature_minimum_c &&
+         block_temperature_c <= limits.block_temperature_maximum_c;
+}
+
+std::string outside_window_text(const SafetyLimits& limits, double block_temperature_c) {
+  return "the block is at " + with_unit(block_temperature_c, "°C") + ", outside " +
+         with_unit(limits.block_temperature_minimum_c, "°C") + " to " +
+         with_unit(limits.block_temperature_maximum_c, "°C");
+}
+
 }  // namespace
 
 Supervision::Supervision(const SafetyLimits& limits) : limits_(limits), motion_(limits) {}
@@ -42,9 +53,7 @@ void Supervision::observe(const std::optional<bridge::StageStatus>& status,
   if (!last_exchange_ || status->controller_heartbeat != status_.controller_heartbeat) {
     heartbeat_changed_ = now;
   }
-  temperature_.observe(status->block_temperature_c < limits_.block_temperature_minimum_c ||
-                           status->block_temperature_c > limits_.block_temperature_maximum_c,
-                       now);
+  temperature_.observe(!is_in_window(limits_, status->block_temperature_c), now);
   load_.observe(status->spindle_load_percent > limits_.spindle_load_maximum_percent, now);
   vibration_.observe(status->vibration_mm_s > limits_.vibration_maximum_mm_s, now);
   motion_.observe(*status, now);
@@ -114,9 +123,13 @@ std::optional<std::string> Supervision::machine_cause() const {
 
 std::optional<std::string> Supervision::temperature_cause() const {
   if (!temperature_.lasts(limits_.temperature_delay, now_)) return std::nullopt;
-  return "the block is at " + with_unit(status_.block_temperature_c, "°C") + ", outside " +
-         with_unit(limits_.block_temperature_minimum_c, "°C") + " to " +
-         with_unit(limits_.block_temperature_maximum_c, "°C");
+  return outside_window_text(limits_, status_.block_temperature_c);
+}
+
+std::optional<std::string> temperature_complaint(const SafetyLimits& limits,
+                                                 double block_temperature_c) {
+  if (is_in_window(limits, block_temperature_c)) return std::nullopt;
+  return outside_window_text(limits, block_temperature_c);
 }
 
 const char* fault_text(std::uint16_t fault_code) {

@@ -63,6 +63,10 @@ class Supervision {
   TimePoint now_{};
 };
 
+/// That a block of that temperature is outside its window; nothing when it is inside.
+std::optional<std::string> temperature_complaint(const SafetyLimits& limits,
+                                                 double block_temperature_c);
+
 /// What a fault code of the register map means.
 const char* fault_text(std::uint16_t fault_code);
 

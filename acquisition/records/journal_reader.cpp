@@ -23,6 +23,33 @@ std::vector<Metric> metrics_of(const std::string& text) {
   return metrics;
 }
 
+/// A daemon that was killed left what is not in the journal's file yet.
+bool has_unfinished_writes(const std::filesystem::path& journal) {
+  std::error_code error;
+  return std::filesystem::file_size(journal.string() + "-wal", error) > 0 && !error;
+}
+
+/// The file for SQLite as one that nobody writes: it makes no files beside it.
+std::string name_of_unchanging(const std::filesystem::path& journal) {
+  std::string name = "file:";
+  for (const char character : std::filesystem::absolute(journal).string()) {
+    switch (character) {
+      case '%':
+        name += "%25";
+        break;
+      case '?':
+        name += "%3f";
+        break;
+      case '#':
+        name += "%23";
+        break;
+      default:
+        name += character;
+    }
+  }
+  return name + "?immutable=1";
+}
+
 template <typename Work>
 auto with_journal(const std::filesystem::path& path, Work work) {
   try {
@@ -41,14 +68,19 @@ struct JournalReader::State {
   std::filesystem::path path;
   SQLite::Database database;
 
-  explicit State(const std::filesystem::path& journal_path)
-      : path(journal_path), database(journal_path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs) {
-    check_journal_version(database);
+  State(const std::filesystem::path& journal_path, const std::string& name)
+      : path(journal_path),
+        database(name, SQLite::OPEN_READONLY | SQLite::OPEN_URI, kBusyTimeoutMs) {
+    check_journal_version(database, journal_path);
   }
 };
 
-JournalReader::JournalReader(const std::filesystem::path& path)
-    : state_(with_journal(path, [&] { return std::make_unique<State>(path); })) {}
+JournalReader::JournalReader(const std::filesystem::path& path, Journal is)
+    : state_(with_journal(path, [&] {
+        const bool leave_no_trace = is == Journal::at_rest && !has_unfinished_writes(path);
+        return std::make_unique<State>(path,
+                                       leave_no_trace ? name_of_unchanging(path) : path.string());
+      })) {}
 
 JournalReader::~JournalReader() = default;
 
@@ -105,7 +137,7 @@ std::int64_t JournalReader::committed_count() const {
 }
 
 JournalSummary JournalReader::summary() const {
-  return with_journal(state_->path, [&] { return summary_of(state_->database); });
+  return with_journal(state_->path, [&] { return summary_of(state_->database, state_->path); });
 }
 
 std::uint32_t JournalReader::last_sequence() const {

@@ -13,7 +13,10 @@ namespace biotomy::acquisition {
 /// throws JournalError.
 class JournalReader {
  public:
-  explicit JournalReader(const std::filesystem::path& path);
+  /// Whether somebody may write it meanwhile. Of one at rest nothing is left behind, not even the
+  /// files by which readers and the writer agree.
+  enum class Journal { in_use, at_rest };
+  explicit JournalReader(const std::filesystem::path& path, Journal is = Journal::in_use);
   ~JournalReader();
   JournalReader(const JournalReader&) = delete;
   JournalReader& operator=(const JournalReader&) = delete;

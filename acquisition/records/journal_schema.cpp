@@ -94,9 +94,9 @@ int version_of(SQLite::Database& database) {
   return database.execAndGet("PRAGMA user_version").getInt();
 }
 
-[[noreturn]] void refuse(const SQLite::Database& database, int version) {
+[[noreturn]] void refuse(const std::filesystem::path& journal, int version) {
   throw JournalError(
-      "the journal " + database.getFilename() + " has version " + std::to_string(version) +
+      "the journal " + journal.string() + " has version " + std::to_string(version) +
       " and this program knows version " + std::to_string(journal_version()) +
       (version > journal_version() ? ": use the newer program" : ": open it once with biotomyd"));
 }
@@ -107,9 +107,9 @@ int journal_version() {
   return static_cast<int>(kSteps.size());
 }
 
-void migrate_journal(SQLite::Database& database) {
+void migrate_journal(SQLite::Database& database, const std::filesystem::path& journal) {
   const int found = version_of(database);
-  if (found < 0 || found > journal_version()) refuse(database, found);
+  if (found < 0 || found > journal_version()) refuse(journal, found);
   for (int version = found; version < journal_version(); ++version) {
     SQLite::Transaction transaction(database);
     database.exec(kSteps[static_cast<std::size_t>(version)]);
@@ -118,9 +118,9 @@ void migrate_journal(SQLite::Database& database) {
   }
 }
 
-void check_journal_version(SQLite::Database& database) {
+void check_journal_version(SQLite::Database& database, const std::filesystem::path& journal) {
   const int found = version_of(database);
-  if (found != journal_version()) refuse(database, found);
+  if (found != journal_version()) refuse(journal, found);
 }
 
 }  // namespace biotomy::acquisition

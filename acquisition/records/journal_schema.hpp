@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 namespace SQLite {  // NOLINT(readability-identifier-naming): the library's
 class Database;
 }
@@ -10,10 +12,11 @@ namespace biotomy::acquisition {
 int journal_version();
 
 /// Brings an opened journal to `journal_version()`, step by step, each step in a transaction of its
-/// own. Throws JournalError for a journal of a newer program.
-void migrate_journal(SQLite::Database& database);
+/// own. `journal` stands for the file in messages. Throws JournalError for a journal of a newer
+/// program.
+void migrate_journal(SQLite::Database& database, const std::filesystem::path& journal);
 
 /// Throws JournalError unless the journal has exactly this program's version.
-void check_journal_version(SQLite::Database& database);
+void check_journal_version(SQLite::Database& database, const std::filesystem::path& journal);
 
 }  // namespace biotomy::acquisition

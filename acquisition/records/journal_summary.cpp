@@ -6,13 +6,13 @@
 
 namespace biotomy::acquisition {
 
-JournalSummary summary_of(SQLite::Database& database) {
+JournalSummary summary_of(SQLite::Database& database, const std::filesystem::path& journal) {
   JournalSummary summary;
   SQLite::Statement last(database, "SELECT count(*), coalesce(max(layer), 0) FROM layers");
   last.executeStep();
   summary.last_committed = last.getColumn(1).getInt64();
   if (last.getColumn(0).getInt64() != summary.last_committed) {
-    throw JournalError("the journal " + database.getFilename() +
+    throw JournalError("the journal " + journal.string() +
                        " has committed layers with gaps between them: it is damaged");
   }
 

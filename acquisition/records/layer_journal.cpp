@@ -64,7 +64,7 @@ void make_journal(const std::filesystem::path& path) {
     // goes wrong: so all is in the one file, and on the disk, or it is an error.
     SQLite::Database database(fresh, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
     database.exec("PRAGMA synchronous = FULL");
-    migrate_journal(database);
+    migrate_journal(database, path);
   }
   fs::rename(fresh, path, error);
   if (error) throw JournalError("the journal " + path.string() + ": " + error.message());
@@ -93,7 +93,7 @@ struct LayerJournal::State {
     database.exec("PRAGMA synchronous = FULL");
     database.exec("PRAGMA foreign_keys = ON");
     believe_only_the_disk();
-    migrate_journal(database);
+    migrate_journal(database, path);
   }
 
   /// A journal that is opened may show commits that are not on the disk: those whose fsync failed
@@ -236,7 +236,7 @@ void LayerJournal::commit_layer(const AttemptRow& attempt, std::uint64_t bytes,
 }
 
 JournalSummary LayerJournal::summary() const {
-  return with_journal(state_->path, [&] { return summary_of(state_->database); });
+  return with_journal(state_->path, [&] { return summary_of(state_->database, state_->path); });
 }
 
 }  // namespace biotomy::acquisition

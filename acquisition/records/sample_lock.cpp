@@ -9,11 +9,19 @@
 
 namespace biotomy::acquisition {
 
-SampleLock::SampleLock(const std::filesystem::path& sample) {
+namespace {
+
+std::filesystem::path lock_file_of(const std::filesystem::path& sample) {
   std::string name = ".";
   name += sample.filename().string();
   name += ".lock";
-  const std::filesystem::path path = sample.parent_path() / name;
+  return sample.parent_path() / name;
+}
+
+}  // namespace
+
+SampleLock::SampleLock(const std::filesystem::path& sample) {
+  const std::filesystem::path path = lock_file_of(sample);
   file_ = bridge::UniqueFd(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
   if (!file_.valid()) {
     throw SampleLockError("the lock file " + path.string() +
@@ -23,6 +31,11 @@ SampleLock::SampleLock(const std::filesystem::path& sample) {
     throw SampleLockError("another biotomyd works on the sample " + sample.string() +
                           ": stop it first");
   }
+}
+
+bool SampleLock::is_held(const std::filesystem::path& sample) {
+  const bridge::UniqueFd file(::open(lock_file_of(sample).c_str(), O_RDONLY | O_CLOEXEC));
+  return file.valid() && ::flock(file.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
 }  // namespace biotomy::acquisition

@@ -20,6 +20,9 @@ class SampleLock {
   /// Throws SampleLockError.
   explicit SampleLock(const std::filesystem::path& sample);
 
+  /// Whether a daemon works on the sample now. Nothing is made.
+  static bool is_held(const std::filesystem::path& sample);
+
  private:
   bridge::UniqueFd file_;
 };
