@@ -46,6 +46,10 @@ bool is_name(const std::string& text) {
 
 Credentials Credentials::read_or_make(const std::filesystem::path& file) {
   make_secret_file(file, kWhat, random_token() + "\n");
+  return read(file);
+}
+
+Credentials Credentials::read(const std::filesystem::path& file) {
   return parse(read_secret_file(file, kWhat), file.string());
 }
 

@@ -21,6 +21,9 @@ class Credentials {
   /// Throws SecretFileError, also for a token under 16 characters.
   static Credentials read_or_make(const std::filesystem::path& file);
 
+  /// The same of a file that is there.
+  static Credentials read(const std::filesystem::path& file);
+
   /// The same from the file's text; `file` stands for its name.
   static Credentials parse(const std::string& text, const std::string& file);
 

@@ -26,10 +26,9 @@
 #include "acquisition/service/liveness.hpp"
 #include "acquisition/service/metrics/metrics_page.hpp"
 #include "acquisition/service/metrics/run_metrics.hpp"
-#include "acquisition/service/notifications/command_channel.hpp"
+#include "acquisition/service/notifications/channels.hpp"
 #include "acquisition/service/notifications/notifier.hpp"
 #include "acquisition/service/notifications/run_watch.hpp"
-#include "acquisition/service/notifications/webhook_channel.hpp"
 #include "acquisition/service/service_manager.hpp"
 #include "acquisition/service/stop_signals.hpp"
 #include "acquisition/service/watched_worker.hpp"
@@ -70,22 +69,6 @@ void warn_of_short_watchdog(const ServiceManager& systemd, const Configuration& 
               "hold up a tick, " +
                   std::to_string(longest_tick.count()) +
                   " ms: make it longer, or response_timeout_ms shorter");
-}
-
-std::vector<std::unique_ptr<Channel>> make_channels(const NotifyConfiguration& notify) {
-  std::vector<std::unique_ptr<Channel>> channels;
-  if (!notify.command.empty()) {
-    channels.push_back(std::make_unique<CommandChannel>(notify.command));
-  }
-  if (!notify.webhook.empty()) {
-    std::string token;
-    if (!notify.webhook_token_file.empty()) {
-      token = read_secret_file(notify.webhook_token_file, "the webhook's token file");
-      token.erase(token.find_last_not_of(" \t\r\n") + 1);
-    }
-    channels.push_back(std::make_unique<WebhookChannel>(*split_url(notify.webhook), token));
-  }
-  return channels;
 }
 
 /// Looks at each tick's status for whoever wants to know of it, in the control thread.

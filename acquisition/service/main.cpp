@@ -9,6 +9,8 @@
 #include "acquisition/service/configuration.hpp"
 #include "acquisition/service/configuration_reference.hpp"
 #include "acquisition/service/daemon.hpp"
+#include "acquisition/service/device_list.hpp"
+#include "acquisition/service/rig_check.hpp"
 
 namespace {
 
@@ -16,6 +18,20 @@ using namespace biotomy::acquisition;
 
 constexpr int kFailure = 1;
 constexpr int kUsage = 2;
+
+int list_devices(bool as_json) {
+  const DeviceList found = find_devices();
+  std::cout << (as_json ? devices_json(found) : devices_text(found));
+  return 0;
+}
+
+int check_configuration(const std::string& file, bool as_json) {
+  log_to_stderr();
+  const Configuration configuration = read_configuration(file);
+  const RigFindings found = check_rig(configuration, real_check_parts(configuration));
+  std::cout << (as_json ? findings_json(found) : findings_text(found));
+  return found.can_start() ? 0 : kFailure;
+}
 
 }  // namespace
 
@@ -26,6 +42,9 @@ int main(int argc, char** argv) {
   bool reference = false;
   bool diagram = false;
   bool test = false;
+  bool list = false;
+  bool as_json = false;
+  std::string checked_file;
   auto* config = app.add_option("--config", file, "the configuration, rig.toml");
   app.add_flag("--configuration-reference", reference,
                "print every key of the configuration (Markdown) and end")
@@ -34,8 +53,23 @@ int main(int argc, char** argv) {
       ->excludes(config);
   app.add_flag("--test-notification", test,
                "send a notification as [notify] of the configuration says, and end");
+  auto* check = app.add_option("--check", checked_file,
+                               "ask every device of this configuration what it is and how it is, "
+                               "say what is wrong, and end; nothing moves")
+                    ->excludes(config);
+  auto* devices = app.add_flag("--list-devices", list,
+                               "print the cameras, GPIO lines and serial ports of this computer "
+                               "that a configuration could name, and end")
+                      ->excludes(config)
+                      ->excludes(check);
+  auto* json = app.add_flag("--json", as_json, "of --check and --list-devices: print JSON");
   try {
     app.parse(argc, argv);
+    if (json->count() > 0 && check->count() + devices->count() == 0) {
+      throw CLI::RequiredError("--json is of --check and --list-devices; one of them");
+    }
+    if (list) return list_devices(as_json);
+    if (check->count() > 0) return check_configuration(checked_file, as_json);
     if (reference) {
       std::cout << configuration_reference();
       return 0;

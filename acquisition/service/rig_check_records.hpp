@@ -1,0 +1,14 @@
+#pragma once
+
+#include "acquisition/service/rig_check_devices.hpp"
+
+namespace biotomy::acquisition {
+
+/// Sample, journal, disk and clock, as far as the devices' answers allow. Makes nothing.
+void check_records(const JobSettings& job, const AnsweredRig& rig, const Surroundings& surroundings,
+                   RigFindings& findings);
+
+/// The token file, and who is told when a person is needed.
+void check_service(const Configuration& configuration, RigFindings& findings);
+
+}  // namespace biotomy::acquisition
