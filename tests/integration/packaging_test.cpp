@@ -71,8 +71,12 @@ TEST_F(Packaging, MakesTheUserAndTheGroupsThatTheUnitNames) {
                               folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(content_of(folder / "etc/passwd"), HasSubstr("biotomy:"));
-  for (const char* group : {"biotomy:", "gpio:", "video:", "dialout:"}) {
-    EXPECT_THAT(content_of(folder / "etc/group"), HasSubstr(group));
+  const std::string groups = content_of(folder / "etc/group");
+  EXPECT_THAT(groups, HasSubstr("biotomy:"));
+  const std::string unit_text = content_of(unit());
+  for (const std::string group : {"gpio", "video", "dialout"}) {
+    EXPECT_THAT(groups, testing::ContainsRegex("(^|\n)" + group + ":[^\n]*:biotomy\n"));
+    EXPECT_THAT(unit_text, testing::ContainsRegex("SupplementaryGroups=[^\n]*" + group));
   }
 }
 

@@ -160,6 +160,32 @@ TEST(Configuration, ReadsTheExampleThatIsInstalled) {
   EXPECT_EQ(read.job.plan.layers, 4000);
 }
 
+TEST(Configuration, ReadsTheExamplesOfOtherRigs) {
+  const std::filesystem::path folder = BIOTOMY_OTHER_EXAMPLES;
+  const Configuration usb = read_configuration(folder / "tcp-controller-usb-camera.toml");
+  EXPECT_THAT(usb.stage.endpoint, testing::StartsWith("tcp://"));
+  EXPECT_EQ(usb.camera.backend, CameraConfiguration::Backend::libcamera);
+  const Configuration csi = read_configuration(folder / "serial-controller-csi-camera.toml");
+  EXPECT_THAT(csi.stage.endpoint, testing::StartsWith("rtu:///dev/serial/by-id/"));
+  EXPECT_EQ(csi.job.focus.actuator, FocusSettings::Actuator::lens);
+  const Configuration simulated = read_configuration(folder / "simulated-rig.toml");
+  EXPECT_EQ(simulated.camera.backend, CameraConfiguration::Backend::socket);
+  EXPECT_EQ(simulated.lines.backend, LinesConfiguration::Backend::socket);
+}
+
+TEST(Configuration, OfTheExamplesTakesABrokenWireForDanger) {
+  const std::filesystem::path others = BIOTOMY_OTHER_EXAMPLES;
+  for (const std::filesystem::path& file :
+       {std::filesystem::path(BIOTOMY_EXAMPLE_CONFIGURATION),
+        others / "tcp-controller-usb-camera.toml", others / "serial-controller-csi-camera.toml"}) {
+    const Configuration read = read_configuration(file);
+    for (const bridge::GpioLineSettings& line : {read.lines.gpiod.estop, read.lines.gpiod.door}) {
+      EXPECT_EQ(line.bias, bridge::LineBias::pull_up) << file;
+      EXPECT_FALSE(line.active_low) << file << ": a wire that broke, pulled up, must be active";
+    }
+  }
+}
+
 TEST(Configuration, FindsRelativePathsBesideItself) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "rig.toml") << smallest_configuration();
