@@ -4,9 +4,11 @@
 #include <thread>
 
 #include <httplib.h>
+#include <netdb.h>
 #include <sys/socket.h>
 
 #include "acquisition/log.hpp"
+#include "firmware_bridge/wire/unique_fd.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -54,6 +56,12 @@ const char* text_of(int status) {
   }
 }
 
+std::string cannot_listen_text(const std::string& host, int port) {
+  return "cannot listen on " + host + ":" + std::to_string(port) +
+         ": another program has the port, or the address is not this computer's; see "
+         "service.listen";
+}
+
 }  // namespace
 
 struct HttpServer::State {
@@ -61,6 +69,24 @@ struct HttpServer::State {
   int port = 0;
   std::thread thread;
 };
+
+std::optional<std::string> listen_complaint(const std::string& host, int port) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
+    return cannot_listen_text(host, port);
+  }
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, ::freeaddrinfo);
+  for (const addrinfo* address = found; address != nullptr; address = address->ai_next) {
+    const bridge::UniqueFd socket(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    if (!socket.valid()) continue;
+    set_socket_options(socket.get());
+    if (::bind(socket.get(), address->ai_addr, address->ai_addrlen) == 0) return std::nullopt;
+  }
+  return cannot_listen_text(host, port);
+}
 
 HttpServer::HttpServer(const Api& api, const std::string& host, int port)
     : state_(std::make_unique<State>()) {
@@ -96,9 +122,7 @@ HttpServer::HttpServer(const Api& api, const std::string& host, int port)
     state_->port = server.bind_to_port(host, port) ? port : -1;
   }
   if (state_->port <= 0) {
-    throw ListenError("cannot listen on " + host + ":" + std::to_string(port) +
-                      ": another program has the port, or the address is not this computer's; "
-                      "see service.listen");
+    throw ListenError(cannot_listen_text(host, port));
   }
   state_->thread = std::thread([state = state_.get()] {
     if (!state->server.listen_after_bind()) log_error("http", "the server ended by itself");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +14,9 @@ class ListenError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Why a server could not listen there now; nothing when it could.
+std::optional<std::string> listen_complaint(const std::string& host, int port);
 
 /// Speaks HTTP for an Api, with threads of its own, until destroyed. Bodies over 64 KiB, slow
 /// clients and long headers are turned away.

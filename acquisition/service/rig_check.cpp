@@ -27,6 +27,7 @@ RigFindings check_rig(const Configuration& configuration, const RigCheckParts& p
                    "biotomy rig status tells of them, or stop it first");
   } else {
     rig = check_devices(configuration, parts, findings);
+    check_address(configuration.service, findings);
   }
   check_records(configuration.job, rig, parts.surroundings, findings);
   check_service(configuration, findings);

@@ -17,6 +17,7 @@
 #include "acquisition/records/sample_lock.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "acquisition/service/credentials.hpp"
+#include "acquisition/service/http_server.hpp"
 #include "acquisition/service/notifications/channels.hpp"
 
 namespace biotomy::acquisition {
@@ -211,6 +212,15 @@ void check_notifications(const NotifyConfiguration& notify, RigFindings& finding
 void check_records(const JobSettings& job, const AnsweredRig& rig, const Surroundings& surroundings,
                    RigFindings& findings) {
   RecordsCheck(job, rig, surroundings, findings).run();
+}
+
+void check_address(const ServiceConfiguration& service, RigFindings& findings) {
+  constexpr const char* kPage = "page";
+  if (const auto complaint = listen_complaint(service.host, service.port)) {
+    findings.wrong(kPage, *complaint);
+  } else {
+    findings.good(kPage, "http://" + service.host + ":" + std::to_string(service.port));
+  }
 }
 
 void check_service(const Configuration& configuration, RigFindings& findings) {

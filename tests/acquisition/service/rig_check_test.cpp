@@ -48,6 +48,8 @@ struct RigCheck : testing::Test {
   RigCheck() {
     configuration.stage.endpoint = "tcp://rig:502";
     configuration.service.token_file = bench.folder / "token";
+    configuration.service.host = "127.0.0.1";
+    configuration.service.port = 0;
     parts = {.make_stage = [this] { return borrowed<bridge::Stage>(bench.stage); },
              .make_lines = [this] { return borrowed<bridge::Lines>(bench.lines); },
              .make_camera = [this] { return borrowed<bridge::Camera>(bench.camera); },
@@ -249,6 +251,12 @@ TEST_F(RigCheck, LooksAtTheTokenWithoutMakingOne) {
   std::ofstream(bench.folder / "token") << "short\n";
   std::filesystem::permissions(bench.folder / "token", std::filesystem::perms::owner_read);
   EXPECT_THAT(check().all(), Contains(wrong("token", "less than 16 characters")));
+}
+
+TEST_F(RigCheck, SaysThatThePageCannotBeWhereItIsToBe) {
+  EXPECT_THAT(check().all(), Contains(finding(Kind::good, "page", "http://127.0.0.1:0")));
+  configuration.service.host = "192.0.2.1";  // of no computer (RFC 5737)
+  EXPECT_THAT(check().all(), Contains(wrong("page", "cannot listen on 192.0.2.1:0")));
 }
 
 TEST_F(RigCheck, LooksForTheProgramThatTellsPeople) {
