@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+
+#include "tests/kernel/frame_source.hpp"
+#include "tests/kernel/raw_gadget.hpp"
+
+namespace biotomy::tests {
+
+/// The frames that a USB camera sends, in a thread of its own: from when the host has chosen a
+/// size until it chooses anew. A host that has stopped fetches nothing, and the thread waits.
+class UsbStream {
+ public:
+  UsbStream(const RawGadget& gadget, FrameSource& source, int frames_per_second);
+  ~UsbStream();
+
+  /// Sends frames of this size through the endpoint, beginning with one that is yet to be taken.
+  /// Nothing of an earlier frame is sent once this has returned.
+  void start(int endpoint, const FrameSize& size);
+
+ private:
+  struct Order {
+    int endpoint = -1;
+    FrameSize size;
+  };
+
+  void run();
+  void stream(const Order& order);
+  bool send_frame(int endpoint, std::span<const std::uint8_t> jpeg);
+  void halt();
+
+  const RawGadget& gadget_;
+  FrameSource& source_;
+  const std::chrono::nanoseconds interval_;
+  bool odd_frame_ = false;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Order> order_;  ///< not begun yet
+  bool is_at_work_ = false;
+  bool is_over_ = false;
+  std::atomic<bool> must_halt_ = false;
+  std::thread thread_;
+};
+
+}  // namespace biotomy::tests
