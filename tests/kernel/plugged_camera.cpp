@@ -1,18 +1,15 @@
 #include "tests/kernel/plugged_camera.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
-#include <thread>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/kernel/swapped_colours.hpp"
+#include "tests/kernel/video_devices.hpp"
 
 namespace biotomy::tests {
 
@@ -20,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 
 constexpr const char* kSizes[] = {"640x480", "320x240"};
 
@@ -28,28 +24,6 @@ std::vector<std::uint8_t> jpeg(const cv::Mat& picture) {
   std::vector<std::uint8_t> file;
   cv::imencode(".jpg", swapped_colours(picture), file, {cv::IMWRITE_JPEG_QUALITY, 90});
   return file;
-}
-
-bool is_known_to_the_kernel() {
-  for (const auto& device : fs::directory_iterator("/sys/class/video4linux")) {
-    std::ifstream file(device.path() / "name");
-    const std::string name((std::istreambuf_iterator<char>(file)), {});
-    if (name.starts_with(kUsbModel)) return true;
-  }
-  return false;
-}
-
-void await_known(bool known) {
-  const auto deadline = steady_clock::now() + seconds(30);
-  while (is_known_to_the_kernel() != known) {
-    if (steady_clock::now() > deadline) {
-      throw std::runtime_error(known ? "the kernel does not see the USB camera"
-                                     : "the kernel still sees the USB camera");
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  // libcamera looks at devices that udevd has taken up.
-  run({"/usr/bin/env", "udevadm", "settle"}, fs::temp_directory_path());
 }
 
 }  // namespace
@@ -66,13 +40,14 @@ void PluggedCamera::plug_in() {
     command.insert(command.end(), {"--size", size});
   }
   process_ = std::make_unique<ChildProcess>(command, fs::temp_directory_path());
-  await_known(true);
+  await_video_device(kUsbModel, true);
 }
 
 void PluggedCamera::unplug() {
   process_->send(SIGKILL);
   process_->wait(seconds(10));
   process_.reset();
+  await_video_device(kUsbModel, false);
 }
 
 void PluggedCamera::show(const std::vector<cv::Mat>& pictures) {

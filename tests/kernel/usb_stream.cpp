@@ -45,54 +45,53 @@ UsbStream::UsbStream(const RawGadget& gadget, FrameSource& source, int frames_pe
 }
 
 UsbStream::~UsbStream() {
-  halt();
   {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     is_over_ = true;
-    changed_.notify_all();
+    break_off(lock);
   }
   thread_.join();
 }
 
-void UsbStream::halt() {
+void UsbStream::start(int endpoint, const FrameSize& size) {
   std::unique_lock lock(mutex_);
-  order_.reset();
-  must_halt_ = true;
-  while (is_at_work_) {
+  order_ = Order{endpoint, size};
+  break_off(lock);
+}
+
+/// What is under way is no longer wanted. A write ends before this returns; a frame that is yet to
+/// come from the source will not be sent.
+void UsbStream::break_off(std::unique_lock<std::mutex>& lock) {
+  ++orders_;
+  changed_.notify_all();
+  while (is_writing_) {
     pthread_kill(thread_.native_handle(), kBreakOff);
     changed_.wait_for(lock, kBreakOffAgain);
   }
-  must_halt_ = false;
-}
-
-void UsbStream::start(int endpoint, const FrameSize& size) {
-  halt();
-  const std::lock_guard lock(mutex_);
-  order_ = Order{endpoint, size};
-  changed_.notify_all();
 }
 
 void UsbStream::run() {
   std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return is_over_ || order_; });
-    if (is_over_) return;
-    const Order order = *order_;
-    order_.reset();
-    is_at_work_ = true;
+  for (int begun = 0; !is_over_;) {
+    changed_.wait(lock, [&] { return is_over_ || orders_ != begun; });
+    begun = orders_;
+    const Order order = order_;
+    const bool is_wanted = !is_over_;
     lock.unlock();
-    stream(order);
+    if (is_wanted) stream(order, begun);
     lock.lock();
-    is_at_work_ = false;
-    changed_.notify_all();
   }
 }
 
-void UsbStream::stream(const Order& order) {
+void UsbStream::stream(const Order& order, int number) {
   Clock::time_point next = Clock::now();
-  while (!must_halt_) {
+  const auto is_in_force = [&] {
+    const std::lock_guard lock(mutex_);
+    return orders_ == number;
+  };
+  while (is_in_force()) {
     try {
-      if (!send_frame(order.endpoint, source_.next(order.size))) continue;
+      send_frame(order.endpoint, source_.next(order.size), number);
     } catch (const std::exception& error) {
       std::cerr << "usb_camera: no frame: " << error.what() << std::endl;
       std::this_thread::sleep_for(kSourceIsAway);
@@ -102,7 +101,8 @@ void UsbStream::stream(const Order& order) {
   }
 }
 
-bool UsbStream::send_frame(int endpoint, std::span<const std::uint8_t> jpeg) {
+/// As much of it as the order stays in force.
+void UsbStream::send_frame(int endpoint, std::span<const std::uint8_t> jpeg, int number) {
   const auto ticks = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch())
           .count() *
@@ -116,13 +116,18 @@ bool UsbStream::send_frame(int endpoint, std::span<const std::uint8_t> jpeg) {
   payload.insert(payload.end(), jpeg.begin(), jpeg.end());
   // A transfer ends with a packet that is not full; a JPEG reader takes no note of bytes behind it.
   if (payload.size() % kBulkPacket == 0) payload.push_back(0);
-  for (std::size_t sent = 0; sent < payload.size(); sent += RawGadget::kMostBytesInAWrite) {
+  std::unique_lock lock(mutex_);
+  for (std::size_t sent = 0; sent < payload.size() && orders_ == number;) {
     const std::size_t length = std::min(RawGadget::kMostBytesInAWrite, payload.size() - sent);
-    if (must_halt_ || !gadget_.write(endpoint, std::span(payload).subspan(sent, length))) {
-      return false;
-    }
+    is_writing_ = true;
+    lock.unlock();
+    const bool is_fetched = gadget_.write(endpoint, std::span(payload).subspan(sent, length));
+    lock.lock();
+    is_writing_ = false;
+    changed_.notify_all();
+    if (!is_fetched) return;
+    sent += length;
   }
-  return true;
 }
 
 }  // namespace biotomy::tests

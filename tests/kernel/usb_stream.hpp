@@ -1,10 +1,9 @@
 #pragma once
 
-#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <thread>
 
@@ -31,9 +30,9 @@ class UsbStream {
   };
 
   void run();
-  void stream(const Order& order);
-  bool send_frame(int endpoint, std::span<const std::uint8_t> jpeg);
-  void halt();
+  void stream(const Order& order, int number);
+  void send_frame(int endpoint, std::span<const std::uint8_t> jpeg, int number);
+  void break_off(std::unique_lock<std::mutex>& lock);
 
   const RawGadget& gadget_;
   FrameSource& source_;
@@ -42,10 +41,10 @@ class UsbStream {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Order> order_;  ///< not begun yet
-  bool is_at_work_ = false;
+  Order order_;
+  int orders_ = 0;  ///< the number of the one that is in force
+  bool is_writing_ = false;
   bool is_over_ = false;
-  std::atomic<bool> must_halt_ = false;
   std::thread thread_;
 };
 
