@@ -14,18 +14,12 @@ namespace biotomy::tests {
 
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 constexpr seconds kPatience(120);
 constexpr seconds kLongestJob(280);
-constexpr milliseconds kPollInterval(20);
 constexpr int kKilled = 128 + SIGKILL;
-
-bool stands_still(const std::string& state) {
-  return state == "faulted" || state == "paused" || state == "idle";
-}
 
 }  // namespace
 
@@ -40,6 +34,11 @@ std::filesystem::path UndisturbedRun::sample() {
   if (watched.exit_code != 0) throw std::runtime_error(watched.output + watched.errors);
   return rig_.sample();
 }
+
+KilledRun::KilledRun(const RigPlan& plan)
+    : rig_(plan),
+      operator_([this](const std::string& command) { return rig_.rig(command); },
+                [this] { return rig_.status(); }) {}
 
 void KilledRun::run_daemon_for(From from, std::chrono::microseconds time) {
   if (from == From::work) {
@@ -63,7 +62,7 @@ void KilledRun::await_kill(bool go_on_meanwhile) {
   if (go_on_meanwhile) {
     try {
       rig_.await_daemon();
-      operate();
+      operator_.go_on();
     } catch (const std::runtime_error&) {
       // It was killed meanwhile; if it was not, the way it ends tells.
     }
@@ -87,39 +86,7 @@ std::int64_t KilledRun::committed() const {
 
 void KilledRun::go_on() {
   if (!rig_.daemon_runs()) rig_.start_daemon();
-  operate();
-}
-
-void KilledRun::operate() {
-  const auto deadline = steady_clock::now() + kPatience;
-  for (;;) {
-    const nlohmann::json status = rig_.status();
-    const std::string state = status.at("state");
-    if (!stands_still(state) && state != "resetting") return;
-    const nlohmann::json& alarm = status.at("alarm");
-    const std::string cause = alarm.is_object() ? alarm.at("cause").get<std::string>() : "";
-    if (steady_clock::now() > deadline) {
-      throw std::runtime_error("the rig does not go on: " + status.dump(1));
-    }
-    act(state, cause);
-  }
-}
-
-void KilledRun::act(const std::string& state, const std::string& alarm) {
-  const bool just_started = alarm.find("the daemon has just started") != std::string::npos;
-  Outcome
-      outcome;  // of nothing, where the daemon has not looked at the rig yet: another look helps
-  if (state == "paused") {
-    outcome = rig_.rig("resume");
-  } else if (state == "idle" || just_started) {
-    outcome = rig_.rig("start");
-    const bool latched = outcome.errors.find("acknowledge it first") != std::string::npos;
-    if (latched) outcome = rig_.rig("acknowledge");
-  } else if (state == "faulted" && !alarm.empty()) {
-    outcome = rig_.rig("acknowledge");
-    if (outcome.exit_code == 0) alarms_.push_back(alarm);
-  }
-  if (outcome.exit_code != 0) std::this_thread::sleep_for(kPollInterval);
+  operator_.go_on();
 }
 
 void KilledRun::finish() {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/faults/rig_operator.hpp"
 #include "tests/faults/run_judge.hpp"
 #include "tests/integration/simulated_rig.hpp"
 
@@ -25,7 +26,7 @@ class UndisturbedRun {
 /// A job that is killed and gone on with, and judged at its end.
 class KilledRun {
  public:
-  explicit KilledRun(const RigPlan& plan) : rig_(plan) {}
+  explicit KilledRun(const RigPlan& plan);
 
   SimulatedRig& rig() { return rig_; }
 
@@ -53,7 +54,7 @@ class KilledRun {
   std::int64_t committed() const;
 
   /// The causes of the alarms that `go_on` acknowledged.
-  const std::vector<std::string>& alarms() const { return alarms_; }
+  const std::vector<std::string>& alarms() const { return operator_.alarms(); }
 
   /// What was wrong with the run, by `judge`, by `biotomy verify`, and by hidden files that killed
   /// daemons left in the sample.
@@ -61,12 +62,10 @@ class KilledRun {
 
  private:
   void await_kill(bool go_on_meanwhile);
-  void operate();
-  void act(const std::string& state, const std::string& alarm);
 
   SimulatedRig rig_;
+  RigOperator operator_;
   std::vector<Killed> kills_;
-  std::vector<std::string> alarms_;
 };
 
 }  // namespace biotomy::tests

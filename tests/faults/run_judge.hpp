@@ -21,6 +21,9 @@ struct FinishedRun {
   double first_face_um = 0.0;
   double layer_thickness_um = 0.0;
   std::vector<Killed> kills;  ///< in their order
+  /// The camera takes frames all the time and counts them by itself: the twin's are not recorded
+  /// one by one. And they come by JPEG.
+  bool camera_streams = false;
 
   double face_um(std::int64_t layer) const {
     return first_face_um + static_cast<double>(layer - 1) * layer_thickness_um;
@@ -36,7 +39,8 @@ struct FinishedRun {
 /// - every layer is committed and its file is there with its hash;
 /// - its photograph was taken of its own face, by the lamp's light, and shows what an undisturbed
 ///   run's layer shows, by far better than that layer's neighbours do;
-/// - every frame that the twin took is in the journal: as an attempt, as a point of a focus
+/// - every frame that the twin took, unless the camera streams, is in the journal: as an attempt,
+/// as a point of a focus
 ///   search, or as a trial of the camera. A search that was broken off leaves no record, and a kill
 ///   loses the frame on its way.
 std::vector<std::string> judge(const FinishedRun& run,
