@@ -113,7 +113,7 @@ void Autofocus::took_a_peak(const BracketVerdict& verdict) {
   const bool is_fine = step_ <= kFineEnough * settings_.step || step_ <= plan_.step;
   candidate_ = Candidate{verdict, step_};
   if (is_fine || brackets_left_ <= 0) {
-    confirm(*candidate_);
+    confirm();
     return;
   }
   --brackets_left_;
@@ -122,7 +122,7 @@ void Autofocus::took_a_peak(const BracketVerdict& verdict) {
 
 void Autofocus::widen(const BracketVerdict& verdict) {
   if (candidate_) {  // a wider bracket has found it, and finer ones tell no more
-    confirm(*candidate_);
+    confirm();
     return;
   }
   const bool is_widest =
@@ -147,8 +147,7 @@ void Autofocus::move_on(const BracketVerdict& verdict) {
   begin_bracket(verdict.position, last_kind_ == verdict.kind ? kWider * step_ : step_);
 }
 
-void Autofocus::confirm(const Candidate& candidate) {
-  candidate_ = candidate;
+void Autofocus::confirm() {
   confirming_ = true;
   approached_ = settings_.backlash.value <= 0.0;
 }
@@ -174,7 +173,7 @@ void Autofocus::end_confirmation(std::shared_ptr<const FrameMeasures> frame) {
 
 void Autofocus::out_of_brackets(const std::string& why) {
   if (candidate_) {
-    confirm(*candidate_);
+    confirm();
   } else {
     give_up(why);
   }

@@ -72,7 +72,7 @@ class Autofocus {
   void took_a_peak(const BracketVerdict& verdict);
   void move_on(const BracketVerdict& verdict);
   void widen(const BracketVerdict& verdict);
-  void confirm(const Candidate& candidate);
+  void confirm();
   void end_confirmation(std::shared_ptr<const FrameMeasures> frame);
   void out_of_brackets(const std::string& why);
 

@@ -20,17 +20,13 @@ std::optional<std::string> outside(const char* what, Value value, Value least, V
   return text.str();
 }
 
-bool has(const libcamera::ControlInfoMap& offered, unsigned int control) {
-  return offered.count(control) > 0;
-}
-
 }  // namespace
 
 SettingsOffered settings_offered(const libcamera::ControlInfoMap& offered) {
-  return {.exposure = has(offered, id::EXPOSURE_TIME),
-          .gain = has(offered, id::ANALOGUE_GAIN),
-          .colour_gains = has(offered, id::COLOUR_GAINS),
-          .lens = has(offered, id::LENS_POSITION)};
+  return {.exposure = has_control(offered, id::EXPOSURE_TIME),
+          .gain = has_control(offered, id::ANALOGUE_GAIN),
+          .colour_gains = has_control(offered, id::COLOUR_GAINS),
+          .lens = has_control(offered, id::LENS_POSITION)};
 }
 
 std::optional<LensRange> lens_range(const libcamera::ControlInfoMap& offered) {
@@ -65,20 +61,20 @@ std::optional<std::string> settings_complaint(const libcamera::ControlInfoMap& o
 void write_settings(const libcamera::ControlInfoMap& offered, const CameraSettings& settings,
                     libcamera::ControlList& controls) {
   set_manual_exposure(offered, controls);
-  if (has(offered, id::AWB_ENABLE)) controls.set(id::AwbEnable, false);
-  if (has(offered, id::EXPOSURE_TIME)) {
+  if (has_control(offered, id::AWB_ENABLE)) controls.set(id::AwbEnable, false);
+  if (has_control(offered, id::EXPOSURE_TIME)) {
     controls.set(id::ExposureTime, static_cast<std::int32_t>(settings.exposure.count()));
   }
-  if (has(offered, id::ANALOGUE_GAIN)) {
+  if (has_control(offered, id::ANALOGUE_GAIN)) {
     controls.set(id::AnalogueGain, static_cast<float>(settings.gain));
   }
-  if (has(offered, id::COLOUR_GAINS)) {
+  if (has_control(offered, id::COLOUR_GAINS)) {
     const std::array gains{static_cast<float>(settings.red_gain),
                            static_cast<float>(settings.blue_gain)};
     controls.set(id::ColourGains, libcamera::Span<const float, 2>(gains));
   }
   if (settings.lens_position) {
-    if (has(offered, id::AF_MODE)) controls.set(id::AfMode, id::AfModeManual);
+    if (has_control(offered, id::AF_MODE)) controls.set(id::AfMode, id::AfModeManual);
     controls.set(id::LensPosition, static_cast<float>(*settings.lens_position));
   }
 }

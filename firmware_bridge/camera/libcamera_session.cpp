@@ -61,11 +61,28 @@ nanoseconds time_of(clockid_t clock) {
   return std::chrono::seconds(now.tv_sec) + nanoseconds(now.tv_nsec);
 }
 
+/// A pipeline that fills in nothing (the virtual one of libcamera 0.4) leaves status, sequence and
+/// time as the memory was; the numbers of bytes alone are then 0 for certain.
+bool is_filled_in(const libcamera::FrameMetadata& metadata) {
+  const auto& planes = metadata.planes();
+  return std::any_of(planes.begin(), planes.end(),
+                     [](const auto& plane) { return plane.bytesused > 0; });
+}
+
+/// Torn or lost, or of a sensor that is starting up.
+bool is_spoilt(const libcamera::FrameMetadata& metadata) {
+  using libcamera::FrameMetadata;
+  if (is_filled_in(metadata)) return metadata.status != FrameMetadata::FrameSuccess;
+  return metadata.status == FrameMetadata::FrameError ||
+         metadata.status == FrameMetadata::FrameCancelled;
+}
+
 /// The sensor's time of the frame; 0 if it is not known.
 nanoseconds stamp_of(libcamera::Request& request) {
   const auto told = request.metadata().get(libcamera::controls::SensorTimestamp);
   if (told && *told > 0) return nanoseconds(*told);
-  return nanoseconds(request.buffers().begin()->second->metadata().timestamp);
+  const libcamera::FrameMetadata& metadata = request.buffers().begin()->second->metadata();
+  return nanoseconds(is_filled_in(metadata) ? metadata.timestamp : 0);
 }
 
 /// A frame's time on CLOCK_MONOTONIC; 0 if it is not known. libcamera means CLOCK_BOOTTIME, which
@@ -239,10 +256,7 @@ Frame LibcameraSession::capture(Clock::time_point deadline, std::chrono::millise
       if (completed_.is_gone()) fail(Kind::disconnected, "it was unplugged");
       throw CameraStalled("its requests were cancelled");
     }
-    // Another status is a torn or lost frame, or one of a sensor that is starting up.
-    const libcamera::FrameMetadata& still =
-        request.findBuffer(configuration_->at(kStill).stream())->metadata();
-    if (still.status != libcamera::FrameMetadata::FrameSuccess) {
+    if (is_spoilt(request.findBuffer(configuration_->at(kStill).stream())->metadata())) {
       last_refusal = "the camera says that it is spoilt";
       continue;
     }
@@ -270,7 +284,9 @@ Frame LibcameraSession::frame_of(libcamera::Request& request) const {
   Frame frame;
   frame.image = image_of(kStill);
   if (buffers_.size() > kViewfinder) frame.viewfinder = image_of(kViewfinder);
-  frame.sequence = request.findBuffer(configuration_->at(kStill).stream())->metadata().sequence;
+  const libcamera::FrameMetadata& still =
+      request.findBuffer(configuration_->at(kStill).stream())->metadata();
+  frame.sequence = is_filled_in(still) ? still.sequence : request.sequence();
   frame.sensor_timestamp = stamp_of(request);
   // What the camera doesn't tell stays 0: better unknown than the wish for the fact.
   frame.exposure = told.exposure.value_or(std::chrono::microseconds(0));

@@ -1,14 +1,11 @@
 #include "reconstruct/bricks/texel_kernels.hpp"
 
 #include "reconstruct/bricks/texel_kernels_scalar.hpp"
+#include "reconstruct/bricks/vector_targets.hpp"
 
-// Highway compiles this file once for each vector width. Vectors whose length is known only when
-// the program runs have no blocks to rely on; such processors have NEON as well.
+// Highway compiles this file once for each vector width.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reconstruct/bricks/texel_kernels.cpp"
-#ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-#endif
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

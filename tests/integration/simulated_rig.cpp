@@ -66,9 +66,8 @@ void SimulatedRig::write_daemon_configuration() const {
                  "\"\nregister_map = \"" BIOTOMY_REGISTER_MAP "\"\n" + plan_.daemon_stage_settings +
                  "[lines]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
                  "response_timeout_ms = 5000\n"  // a machine that is busy presses no e-stop
-                 "[camera]\nbackend = \"socket\"\nendpoint = \"unix://rig.socket\"\n"
-                 "exposure_us = 10000\n" +
-                 plan_.daemon_camera_settings +
+                 "[camera]\n" +
+                 plan_.daemon_camera + plan_.daemon_camera_settings +
                  "[job]\nsample = \"sample\"\nlayers = " + std::to_string(plan_.layers) +
                  "\nlayer_thickness_um = " + std::to_string(plan_.layer_thickness_um) +
                  "\npixel_um = [" + std::to_string(plan_.pixel_um) + ", " +
@@ -77,8 +76,9 @@ void SimulatedRig::write_daemon_configuration() const {
                  "\nclear_ms = 1500\nsettle_ms = " + std::to_string(plan_.settle_ms) +
                  "\nlamp_warm_up_ms = " + std::to_string(plan_.lamp_warm_up_ms) + "\n" +
                  quality_settings(plan_) + "[focus]\nstart_um = " +
-                 std::to_string(plan_.first_face_um - kColumnOffsetUm + kFocusGuessErrorUm) +
-                 "\n[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = " +
+                 std::to_string(plan_.first_face_um - kColumnOffsetUm + kFocusGuessErrorUm) + "\n" +
+                 plan_.daemon_focus_settings +
+                 "[service]\nlisten = \"127.0.0.1:0\"\ntoken_file = \"token\"\ntick_ms = " +
                  std::to_string(plan_.tick_ms) + "\n" + plan_.daemon_settings);
 }
 

@@ -29,8 +29,12 @@ struct RigPlan {
   std::string twin_camera_settings = {};     ///< lines of sim.toml's [camera]
   std::string twin_block_settings = {};      ///< lines of sim.toml's [block]
   std::string daemon_stage_settings = {};    ///< lines of rig.toml's [stage]
-  std::string daemon_camera_settings = {};   ///< lines of rig.toml's [camera]
-  int settle_ms = 5;                         ///< real time, as the next two
+  /// Which camera the daemon has: lines of rig.toml's [camera].
+  std::string daemon_camera =
+      "backend = \"socket\"\nendpoint = \"unix://rig.socket\"\nexposure_us = 10000\n";
+  std::string daemon_camera_settings = {};  ///< more lines of it
+  std::string daemon_focus_settings = {};   ///< lines of rig.toml's [focus]
+  int settle_ms = 5;                        ///< real time, as the next two
   int lamp_warm_up_ms = 5;
   int tick_ms = 2;
   /// From the controller's address to that which the daemon is given; both without it.

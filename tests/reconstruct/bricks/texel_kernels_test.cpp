@@ -12,12 +12,13 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include "reconstruct/bricks/brick_runs.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/bricks/texel_kernels_scalar.hpp"
+#include "reconstruct/bricks/vector_targets.hpp"
 #include "tests/reconstruct/bricks/random_path.hpp"
 
 namespace biotomy::reconstruct {
@@ -50,6 +51,17 @@ void for_each_vector_width(const std::function<void()>& check) {
   EXPECT_FALSE(names.empty());
   std::cout << "on " << names << '\n';
 }
+
+#if HWY_ARCH_ARM_A64
+// Where the compiler or the processor had no NEON, the kernels would run all the same, slowly.
+TEST(TexelKernelTargets, AreNeonOn64BitArm) {
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    names.emplace_back(hwy::TargetName(target));
+  }
+  EXPECT_THAT(names, testing::Contains(testing::StartsWith("NEON")));
+}
+#endif
 
 /// Bytes in a buffer of just their number: AddressSanitizer finds who reads or writes one more.
 struct ExactBytes {
