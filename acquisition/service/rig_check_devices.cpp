@@ -53,6 +53,14 @@ std::string position_text(const bridge::StageStatus& status) {
          " passes; block at " + number_text(status.block_temperature_c) + " °C";
 }
 
+/// As used; a camera that does not tell gives 0.
+std::string exposure_text(const bridge::Frame& frame) {
+  const bool told = frame.exposure.count() > 0;
+  return (told ? "exposure " + std::to_string(frame.exposure.count()) + " µs"
+               : std::string("exposure not told")) +
+         (frame.gain > 0.0 ? ", gain " + number_text(frame.gain) : ", gain not told");
+}
+
 /// Asks the devices one after the other; what one throws is its finding.
 class DeviceCheck {
  public:
@@ -220,10 +228,9 @@ class DeviceCheck {
     const cv::Scalar mean = cv::mean(frame.image);
     const double brightness = (mean[0] + mean[1] + mean[2]) / 3.0 / full_scale;
     findings_.good(kCamera, "trial frame " + std::to_string(frame.sequence) + ", the lamp " +
-                                (lit ? "on" : "off") + ": exposure " +
-                                std::to_string(frame.exposure.count()) + " µs, gain " +
-                                number_text(frame.gain) + ", mean brightness " +
-                                fraction_text(brightness) + " of full scale");
+                                (lit ? "on" : "off") + ": " + exposure_text(frame) +
+                                ", mean brightness " + fraction_text(brightness) +
+                                " of full scale");
     findings_.wrong(kCamera, frame_complaints(job_, *rig_.camera, frame));
     if (lit) judge_brightness(brightness);
   }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <tuple>
 
 #include "firmware_bridge/device_access.hpp"
 
@@ -20,7 +21,12 @@ std::vector<fs::path> content_of(const fs::path& folder) {
   for (const fs::directory_iterator end; !error && entries != end; entries.increment(error)) {
     paths.push_back(entries->path());
   }
-  std::sort(paths.begin(), paths.end());
+  // ttyS2 comes before ttyS10.
+  std::ranges::sort(paths, {}, [](const fs::path& path) {
+    const std::string name = path.filename().string();
+    const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+    return std::tuple(name.substr(0, digits), name.size(), name);
+  });
   return paths;
 }
 

@@ -174,6 +174,11 @@ TEST_F(RigCheck, ComparesTheTrialFrameWithWhatWasAskedFor) {
   EXPECT_THAT(findings.all(), Contains(wrong("camera", "job.bits is 16")));
 }
 
+TEST_F(RigCheck, SaysHowTheTrialFrameWasTaken) {
+  EXPECT_THAT(check().all(), Contains(finding(Kind::good, "camera",
+                                              "exposure 10000 µs, gain 1, mean brightness")));
+}
+
 TEST_F(RigCheck, NotesAFrameThatIsTooDark) {
   bench.camera.black_frames = 1;
   EXPECT_THAT(check().all(), Contains(finding(Kind::note, "camera", "a face as dark as this")));

@@ -45,7 +45,8 @@ struct SerialPorts : ::testing::Test {
 TEST_F(SerialPorts, ListsAdaptersAndPortsOfTheBoardButNoScreens) {
   add("ttyUSB0");
   add("ttyAMA0", "32");
-  add("ttyS0", "4");
+  add("ttyS10", "4");
+  add("ttyS2", "4");
   add("tty1");
   add("ptmx");
   std::vector<std::string> devices;
@@ -53,7 +54,7 @@ TEST_F(SerialPorts, ListsAdaptersAndPortsOfTheBoardButNoScreens) {
     devices.push_back(fs::path(port.device).filename());
     EXPECT_EQ(port.trouble, "");
   }
-  EXPECT_THAT(devices, ElementsAre("ttyAMA0", "ttyS0", "ttyUSB0"));
+  EXPECT_THAT(devices, ElementsAre("ttyAMA0", "ttyS2", "ttyS10", "ttyUSB0"));
 }
 
 TEST_F(SerialPorts, LeavesOutANameWithoutAPortBehindIt) {
