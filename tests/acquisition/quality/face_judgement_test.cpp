@@ -84,7 +84,7 @@ TEST(FaceJudgement, AcceptsFaceAfterFaceAndSaysHowMuchEachChanged) {
   const Assessment seventh = watch.judge(watch.face(7));
   EXPECT_EQ(seventh.verdict, Verdict::accepted) << seventh.reason;
   EXPECT_TRUE(seventh.shows_the_face);
-  const Metric& change = metric(seventh, kFaceChange);
+  const Metric change = metric(seventh, kFaceChange);
   EXPECT_GT(change.value, 2.0 * change.limit);
   EXPECT_GT(change.limit, watch.thresholds.minimum_face_change);  // the record sets it
 }
