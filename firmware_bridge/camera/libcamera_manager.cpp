@@ -1,10 +1,10 @@
 #include "firmware_bridge/camera/libcamera_manager.hpp"
 
+#include <cstdlib>
 #include <mutex>
 #include <system_error>
 
 #include <libcamera/camera_manager.h>
-#include <libcamera/logging.h>
 
 #include "firmware_bridge/device_error.hpp"
 
@@ -16,7 +16,8 @@ std::shared_ptr<libcamera::CameraManager> shared_camera_manager() {
 
   const std::lock_guard lock(mutex);
   if (auto manager = running.lock()) return manager;
-  libcamera::logSetLevel("Camera", "WARN");  // not a line of its version at each start
+  // Not a line of its version at each start, unless somebody asked for more. Its log reads this once.
+  ::setenv("LIBCAMERA_LOG_LEVELS", "*:WARN", 0);
   auto manager = std::make_unique<libcamera::CameraManager>();
   if (const int result = manager->start(); result != 0) {
     throw DeviceError(
