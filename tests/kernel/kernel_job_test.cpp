@@ -25,7 +25,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::IsEmpty;
 
-constexpr int kLayers = 16;
+constexpr int kLayers = 12;
+constexpr int kDisturbedLayers = 24;
 constexpr int kCuts = 4;
 
 /// Where the machine leaves what it has to say.
@@ -45,7 +46,7 @@ class KernelJob : public testing::Test {
   /// Of the same specimen, by the twin's own camera.
   static const fs::path& undisturbed() {
     static RigPlan plan = [] {
-      RigPlan same = kernel_plan(kLayers);
+      RigPlan same = kernel_plan(kDisturbedLayers);  // the first layers are those of the others
       same.listen = RigPlan().listen;
       same.twin_stage_settings = same.daemon_stage_settings = "";
       return same;
@@ -56,11 +57,12 @@ class KernelJob : public testing::Test {
   }
 
   /// What was wrong with the job whose sample is at `sample`, at last.
-  std::vector<std::string> verdict(const fs::path& sample, const std::vector<Killed>& kills) {
+  std::vector<std::string> verdict(const fs::path& sample, const std::vector<Killed>& kills,
+                                   int layers = kLayers) {
     SimulatedRig& rig = remote_.rig();
     std::vector<std::string> complaints = judge({.witness = rig.witness(),
                                                  .sample = sample,
-                                                 .layers = kLayers,
+                                                 .layers = layers,
                                                  .first_face_um = plan_.first_face_um,
                                                  .layer_thickness_um = plan_.layer_thickness_um,
                                                  .kills = kills,
@@ -82,6 +84,18 @@ TEST_F(KernelJob, LeavesTheStackOfAnUndisturbedRun) {
   const Outcome end = machine.wait(seconds(240));
   ASSERT_EQ(end.exit_code, 0) << end.output << end.errors;
   EXPECT_THAT(verdict(folder / "run/sample", {}), IsEmpty());
+}
+
+class DisturbedJob : public KernelJob {};
+
+TEST_F(DisturbedJob, StopsAndGoesOnAndLeavesTheStackOfAnUndisturbedRun) {
+  const fs::path folder = results("disturbed");
+  Machine machine(folder, remote_.plugged_in(folder),
+                  {BIOTOMY_KERNEL_DISTURBANCES, folder / "run", std::to_string(kDisturbedLayers)});
+  const Outcome end = machine.wait(seconds(360));
+  std::cout << end.output << std::endl;
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_THAT(verdict(folder / "run/sample", {}, kDisturbedLayers), IsEmpty());
 }
 
 /// A machine whose power is cut over and over, and what its disk keeps.
@@ -125,8 +139,8 @@ TEST_F(PowerCuts, LoseNothingThatWasCommitted) {
     const std::int64_t held = found(machine);
     if (!kills.empty()) kills.back().committed = held;
     EXPECT_GE(held, told) << "cut " << cut;
-    machine.wait_for("state \"grinding\"", seconds(120));
-    std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(0, 12000)(random)));
+    machine.wait_for("is recovering", seconds(120));
+    std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(0, 7000)(random)));
     ASSERT_FALSE(machine.end()) << "the job was over before cut " << cut;
     machine.cut_power();
     kills.push_back({.at = acquisition::utc_text(std::chrono::system_clock::now())});

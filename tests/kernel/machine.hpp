@@ -25,13 +25,11 @@ class Machine {
   /// At once, whatever it is at. What it has not written to its disk is lost.
   void cut_power();
 
-  /// Waits until its console shows `text`, and returns the rest of the line. Throws
-  /// std::runtime_error when the command ends first or time is up.
-  std::string wait_for(const std::string& text, std::chrono::seconds limit) {
-    return process_.wait_for(text, limit);
-  }
+  /// Waits until the command says `text`, and returns the rest of the line. Throws
+  /// std::runtime_error when it ends first or time is up.
+  std::string wait_for(const std::string& text, std::chrono::seconds limit);
 
-  /// The last number that its console showed behind `text`; 0 if it showed none. After its end.
+  /// The last number that the command said behind `text`; 0 if it said none.
   std::int64_t last_number_after(const std::string& text);
 
   /// Nothing while it runs.
@@ -41,6 +39,7 @@ class Machine {
   Outcome wait(std::chrono::seconds limit) { return process_.wait(limit); }
 
  private:
+  std::filesystem::path folder_;
   ChildProcess process_;
 };
 
