@@ -58,7 +58,9 @@ class Disturbance : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     fs::create_directories(folder);
-    rig_ = std::make_unique<KernelRig>(folder, kernel_plan(layers));
+    RigPlan plan = kernel_plan(layers);
+    plan.tick_ms = 80;  // a step takes a tick at least: long enough to be seen and disturbed
+    rig_ = std::make_unique<KernelRig>(folder, plan);
     rig_->start_daemon();
     watch_ = std::make_unique<StatusWatch>(rig_->url());
     rig_->person().go_on();

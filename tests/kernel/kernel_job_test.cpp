@@ -25,8 +25,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::IsEmpty;
 
-constexpr int kLayers = 12;
-constexpr int kDisturbedLayers = 24;
+constexpr int kLayers = 24;
 constexpr int kCuts = 4;
 
 /// Where the machine leaves what it has to say.
@@ -46,7 +45,7 @@ class KernelJob : public testing::Test {
   /// Of the same specimen, by the twin's own camera.
   static const fs::path& undisturbed() {
     static RigPlan plan = [] {
-      RigPlan same = kernel_plan(kDisturbedLayers);  // the first layers are those of the others
+      RigPlan same = kernel_plan(kLayers);
       same.listen = RigPlan().listen;
       same.twin_stage_settings = same.daemon_stage_settings = "";
       return same;
@@ -57,12 +56,11 @@ class KernelJob : public testing::Test {
   }
 
   /// What was wrong with the job whose sample is at `sample`, at last.
-  std::vector<std::string> verdict(const fs::path& sample, const std::vector<Killed>& kills,
-                                   int layers = kLayers) {
+  std::vector<std::string> verdict(const fs::path& sample, const std::vector<Killed>& kills) {
     SimulatedRig& rig = remote_.rig();
     std::vector<std::string> complaints = judge({.witness = rig.witness(),
                                                  .sample = sample,
-                                                 .layers = layers,
+                                                 .layers = kLayers,
                                                  .first_face_um = plan_.first_face_um,
                                                  .layer_thickness_um = plan_.layer_thickness_um,
                                                  .kills = kills,
@@ -91,11 +89,11 @@ class DisturbedJob : public KernelJob {};
 TEST_F(DisturbedJob, StopsAndGoesOnAndLeavesTheStackOfAnUndisturbedRun) {
   const fs::path folder = results("disturbed");
   Machine machine(folder, remote_.plugged_in(folder),
-                  {BIOTOMY_KERNEL_DISTURBANCES, folder / "run", std::to_string(kDisturbedLayers)});
+                  {BIOTOMY_KERNEL_DISTURBANCES, folder / "run", std::to_string(kLayers)});
   const Outcome end = machine.wait(seconds(360));
   std::cout << end.output << std::endl;
   ASSERT_EQ(end.exit_code, 0) << end.errors;
-  EXPECT_THAT(verdict(folder / "run/sample", {}, kDisturbedLayers), IsEmpty());
+  EXPECT_THAT(verdict(folder / "run/sample", {}), IsEmpty());
 }
 
 /// A machine whose power is cut over and over, and what its disk keeps.
@@ -123,6 +121,16 @@ class PowerCuts : public KernelJob {
     return std::stoll(machine.wait_for("found ", seconds(60)));
   }
 
+  /// So many layers of the job, or more.
+  static void await_committed(Machine& machine, std::int64_t layers) {
+    machine.wait_for("committed ", seconds(120));
+    const auto deadline = std::chrono::steady_clock::now() + seconds(120);
+    while (machine.last_number_after("committed ") < layers && !machine.end() &&
+           std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+  }
+
   const fs::path folder_ = results("power");
   const fs::path disk_ = folder_ / "disk.image";
   const fs::path copy_ = folder_ / "sample";
@@ -139,8 +147,8 @@ TEST_F(PowerCuts, LoseNothingThatWasCommitted) {
     const std::int64_t held = found(machine);
     if (!kills.empty()) kills.back().committed = held;
     EXPECT_GE(held, told) << "cut " << cut;
-    machine.wait_for("is recovering", seconds(120));
-    std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(0, 7000)(random)));
+    await_committed(machine, held + std::uniform_int_distribution<int>(0, 3)(random));
+    std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(0, 2000)(random)));
     ASSERT_FALSE(machine.end()) << "the job was over before cut " << cut;
     machine.cut_power();
     kills.push_back({.at = acquisition::utc_text(std::chrono::system_clock::now())});
@@ -151,6 +159,7 @@ TEST_F(PowerCuts, LoseNothingThatWasCommitted) {
   Machine machine = boot();
   kills.back().committed = found(machine);
   EXPECT_GE(kills.back().committed, told);
+  EXPECT_GT(kills.back().committed, 0);
   const Outcome end = machine.wait(seconds(240));
   ASSERT_EQ(end.exit_code, 0) << end.output << end.errors;
   EXPECT_THAT(verdict(copy_, kills), IsEmpty());
