@@ -16,7 +16,7 @@ std::shared_ptr<libcamera::CameraManager> shared_camera_manager() {
 
   const std::lock_guard lock(mutex);
   if (auto manager = running.lock()) return manager;
-  // Not a line of its version at each start, unless somebody asked for more. Its log reads this once.
+  // Not a line of its version at each start, unless somebody asked for more; read once by its log.
   ::setenv("LIBCAMERA_LOG_LEVELS", "*:WARN", 0);
   auto manager = std::make_unique<libcamera::CameraManager>();
   if (const int result = manager->start(); result != 0) {
