@@ -103,6 +103,22 @@ TEST_F(VirtualCameraTest, GivesTheVeryImages) {
   }
 }
 
+TEST_F(VirtualCameraTest, GivesAViewfinderBesideTheStillWhenAsked) {
+  const VirtualCamera shown({cv::Mat(48, 64, CV_8UC3, cv::Scalar(200, 100, 50))});
+  {
+    bridge::LibcameraCamera plain(bridge::LibcameraSettings{});
+    plain.apply(VirtualCamera::settings());
+    EXPECT_TRUE(plain.capture(seconds(5)).viewfinder.empty());
+  }
+  bridge::LibcameraCamera camera(bridge::LibcameraSettings{.viewfinder_width = 32});
+  camera.apply(VirtualCamera::settings());
+  const bridge::Frame frame = camera.capture(seconds(5));
+  EXPECT_EQ(frame.image.size(), cv::Size(64, 48));
+  // This pipeline has streams of one size only, and says what it gives instead.
+  ASSERT_EQ(frame.viewfinder.size(), cv::Size(64, 48));
+  EXPECT_GT(cv::PSNR(frame.viewfinder, frame.image), 40.0);
+}
+
 // The daemon with libcamera as its camera, on the twin's stage and lines: all of its checks are at
 // work, on the pictures that the twin's optics give for this specimen.
 TEST_F(VirtualCameraTest, TakesTheLayersOfAWholeJob) {
