@@ -47,7 +47,8 @@ class KernelJob : public testing::Test {
     static RigPlan plan = [] {
       RigPlan same = kernel_plan(kLayers);
       same.listen = RigPlan().listen;
-      same.twin_stage_settings = same.daemon_stage_settings = "";
+      same.twin_stage_settings = kPatientController;
+      same.daemon_stage_settings = "";
       return same;
     }();
     static UndisturbedRun run(plan);

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <string>
+
 #include "tests/integration/simulated_rig.hpp"
 
 namespace biotomy::tests {
+
+/// A daemon that this machine starves for some seconds is not taken for a dead one.
+inline constexpr const char* kPatientController = "watchdog_timeout = 10000\n";
 
 /// The job that is done on the kernel's devices: small, and with time for a machine on which every
 /// system call takes many times as long.
@@ -10,8 +15,9 @@ inline RigPlan kernel_plan(int layers) {
   RigPlan plan{.width = 320, .height = 240, .layers = layers, .time_scale = 50};
   plan.listen = "rtu://serial-line";
   // A pseudo-terminal keeps no parity bit.
-  plan.twin_stage_settings = "parity = \"none\"\nstop_bits = 2\n";
-  plan.daemon_stage_settings = plan.twin_stage_settings + "response_timeout_ms = 1000\n";
+  const std::string serial = "parity = \"none\"\nstop_bits = 2\n";
+  plan.twin_stage_settings = serial + kPatientController;
+  plan.daemon_stage_settings = serial + "response_timeout_ms = 1000\n";
   plan.daemon_camera_settings = "capture_timeout_ms = 20000\n";
   plan.settle_ms = 20;
   plan.lamp_warm_up_ms = 200;
