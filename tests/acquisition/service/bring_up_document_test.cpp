@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,13 +32,16 @@ std::string sources() {
     const std::size_t next = text.find_first_not_of(" \n", at + 1);
     const bool ends_a_literal = text[at] == '"' && next != std::string::npos && text[next] == '"' &&
                                 text.find('\n', at) < next;
-    if (ends_a_literal) {
+    if (text.compare(at, 2, "\\\"") == 0) {
+      joined += '"';
+      at += 2;
+    } else if (ends_a_literal) {
       at = next + 1;
     } else {
       joined += text[at++];
     }
   }
-  return std::regex_replace(joined, std::regex(R"(\\")"), "\"");
+  return joined;
 }
 
 /// The sentences in the first column of the page's last table.
