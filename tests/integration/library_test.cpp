@@ -26,7 +26,7 @@ class Library : public testing::Test {
     fs::create_directories(tree_);
     expect_done({BIOTOMY_CMAKE, "--install", BIOTOMY_BUILD, "--component", "development",
                  "--prefix", tree_ / "installed"});
-    expect_done({BIOTOMY_CMAKE, "-S", BIOTOMY_EXAMPLE, "-B", tree_ / "build",
+    expect_done({BIOTOMY_CMAKE, "-S", BIOTOMY_EXAMPLE, "-G", "Ninja", "-B", tree_ / "build",
                  "-DCMAKE_BUILD_TYPE=Release",
                  std::string("-DCMAKE_CXX_COMPILER=") + BIOTOMY_COMPILER,
                  "-DCMAKE_PREFIX_PATH=" + (tree_ / "installed").string()});
