@@ -1,13 +1,13 @@
 #include "acquisition/job/preflight_complaints.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "acquisition/job/focus_actuators.hpp"
 #include "acquisition/job/lens_actuator.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "acquisition/records/utc_time.hpp"
+#include "firmware_bridge/camera/told_settings.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -48,24 +48,16 @@ void add_focus_complaints(const JobSettings& settings, const char* actuator,
   }
 }
 
-/// What the camera did beside what it was asked for. A sensor exposes by whole lines and amplifies
-/// in steps; beyond that something else than the configuration sets it.
+/// What the camera did beside what it was asked for: something else than the configuration sets it.
 void add_exposure_complaints(const bridge::Frame& frame, const bridge::CameraSettings& settings,
                              Complaints& complaints) {
-  constexpr double kSteps = 0.1;
-  const auto complain = [&](const std::string& what, double did, double asked) {
-    complaints.push_back("the camera used " + what + " " + number_text(did) +
-                         " and was asked for " + number_text(asked) +
-                         ": switch its automatic modes off, or set what it can do");
-  };
-  const auto exposure = static_cast<double>(frame.exposure.count());
-  const auto asked = static_cast<double>(settings.exposure.count());
+  bridge::ToldSettings told;
   // 0 is a camera that does not say.
-  if (exposure > 0.0 && std::abs(exposure - asked) > std::max(kSteps * asked, 100.0)) {
-    complain("an exposure in µs of", exposure, asked);
-  }
-  if (frame.gain > 0.0 && std::abs(frame.gain - settings.gain) > kSteps * settings.gain) {
-    complain("a gain of", frame.gain, settings.gain);
+  if (frame.exposure.count() > 0) told.exposure = frame.exposure;
+  if (frame.gain > 0.0) told.gain = frame.gain;
+  if (const auto difference = bridge::difference(settings, told)) {
+    complaints.push_back("the camera took a frame with " + *difference +
+                         ": switch its automatic modes off, or set what it can do");
   }
 }
 

@@ -57,6 +57,7 @@ std::optional<std::string> FrameGate::refusal(const DeliveredFrame& frame) {
     return "the camera is only starting";
   }
   if (is_in_flight) return "it was in flight before";
+  if (frame.was_asked_before) return "it was asked for with other settings";
   if (!settings_) return std::nullopt;
   if (auto text = difference(*settings_, frame.told)) return "it was taken with " + *text;
   if (tells_all(offered_, *settings_, frame.told)) {

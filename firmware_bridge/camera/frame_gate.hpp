@@ -13,6 +13,7 @@ struct DeliveredFrame {
   std::chrono::nanoseconds timestamp{0};  ///< of its first row, on the clock of `now`; 0: unknown
   std::chrono::nanoseconds duration{0};   ///< from frame to frame, as told; 0: unknown
   ToldSettings told;
+  bool was_asked_before = false;  ///< its request was handed over before the settings of now
 };
 
 /// Tells which frame of a running stream is the first to be believed: not one that was in flight

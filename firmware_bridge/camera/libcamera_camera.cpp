@@ -24,7 +24,10 @@ LibcameraCamera::LibcameraCamera(const LibcameraSettings& settings)
     : settings_(settings),
       sync_(settings.sync),
       session_(std::make_unique<LibcameraSession>(settings_, sync_, Kind::configuration)),
-      description_(session_->describe()) {}
+      description_(session_->describe()) {
+  // Whatever comes to be the first: it is this one that is looked for after it was unplugged.
+  if (settings_.camera.empty()) settings_.camera = session_->id();
+}
 
 LibcameraCamera::~LibcameraCamera() = default;
 

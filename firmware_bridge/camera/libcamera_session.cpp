@@ -186,6 +186,9 @@ void LibcameraSession::apply(const CameraSettings& settings) {
   if (const auto complaint = settings_complaint(camera_->controls(), settings)) {
     fail(Kind::refused, *complaint);
   }
+  if (settings_ != settings) {
+    for (const auto& request : requests_) outdated_.insert(request.get());
+  }
   settings_ = settings;
   gate_.ask(settings);
 }
@@ -202,6 +205,7 @@ void LibcameraSession::queue(libcamera::Request& request) {
   request.reuse(libcamera::Request::ReuseBuffers);
   // Some pipelines obey the controls given at the start, some those of each request.
   if (settings_) write_settings(camera_->controls(), *settings_, request.controls());
+  outdated_.erase(&request);
   check(camera_->queueRequest(&request), "it takes no requests");
 }
 
@@ -222,18 +226,22 @@ void LibcameraSession::park_completed() {
 libcamera::Request& LibcameraSession::next_request(Clock::time_point deadline,
                                                    std::chrono::milliseconds silence,
                                                    const std::string& last_refusal) {
-  libcamera::Request* request = completed_.pop(std::min(deadline, Clock::now() + silence));
-  if (request != nullptr) return *request;
-  if (completed_.is_gone()) fail(Kind::disconnected, "it was unplugged");
-  if (Clock::now() < deadline) throw CameraStalled("it delivers nothing");
+  if (Clock::now() < deadline) {
+    libcamera::Request* request = completed_.pop(std::min(deadline, Clock::now() + silence));
+    if (request != nullptr) return *request;
+    if (completed_.is_gone()) fail(Kind::disconnected, "it was unplugged");
+    if (Clock::now() < deadline) throw CameraStalled("it delivers nothing");
+  }
   if (last_refusal.empty()) fail(Kind::timeout, "no frame in time");
   fail(Kind::timeout, "no good frame in time: of the last one, " + last_refusal);
 }
 
 std::optional<std::string> LibcameraSession::refusal(libcamera::Request& request) {
   const libcamera::ControlList& metadata = request.metadata();
-  DeliveredFrame frame{
-      .timestamp = monotonic(stamp_of(request)), .duration = {}, .told = told_settings(metadata)};
+  DeliveredFrame frame{.timestamp = monotonic(stamp_of(request)),
+                       .duration = {},
+                       .told = told_settings(metadata),
+                       .was_asked_before = outdated_.contains(&request)};
   if (const auto duration = metadata.get(libcamera::controls::FrameDuration)) {
     frame.duration = std::chrono::microseconds(*duration);
   }
@@ -247,7 +255,7 @@ Frame LibcameraSession::capture(Clock::time_point deadline, std::chrono::millise
   const SyncedCapture synced(sync_);
   gate_.open(time_of(CLOCK_MONOTONIC));
   std::string last_refusal;
-  while (Clock::now() < deadline) {
+  for (;;) {
     queue_parked();
     sync_.trigger();
     libcamera::Request& request = next_request(deadline, silence, last_refusal);
@@ -270,7 +278,6 @@ Frame LibcameraSession::capture(Clock::time_point deadline, std::chrono::millise
       last_refusal = std::string("it is ") + error.what();
     }
   }
-  fail(Kind::timeout, "no good frame in time: of the last one, " + last_refusal);
 }
 
 Frame LibcameraSession::frame_of(libcamera::Request& request) const {

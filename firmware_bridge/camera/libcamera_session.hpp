@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ class LibcameraSession {
   /// True once the camera was unplugged: it will never work again.
   bool is_gone() { return completed_.is_gone(); }
 
+  const std::string& id() const { return camera_->id(); }
   CameraDescription describe() const;
   void apply(const CameraSettings& settings);
 
@@ -70,7 +72,8 @@ class LibcameraSession {
   std::unique_ptr<libcamera::CameraConfiguration> configuration_;
   std::vector<std::unique_ptr<LibcameraBuffers>> buffers_;  ///< of the still, then the viewfinder
   std::vector<std::unique_ptr<libcamera::Request>> requests_;
-  std::vector<libcamera::Request*> parked_;  ///< not with libcamera
+  std::vector<libcamera::Request*> parked_;       ///< not with libcamera
+  std::set<const libcamera::Request*> outdated_;  ///< with libcamera, with settings of before
   bool is_streaming_ = false;
   std::optional<CameraSettings> settings_;
   FrameGate gate_;

@@ -8,10 +8,9 @@ namespace biotomy::bridge {
 
 namespace {
 
-constexpr double kExposureShare = 0.02;
+constexpr double kShare = 0.1;
 constexpr double kExposureStep = 100.0;  // µs: the unit of USB Video Class cameras
-constexpr double kGainShare = 0.05;
-constexpr double kLensStep = 0.05;  // dioptres
+constexpr double kLensStep = 0.05;       // dioptres
 
 std::optional<std::string> compared(const char* what, double asked, std::optional<double> told,
                                     double tolerance) {
@@ -28,16 +27,16 @@ std::optional<std::string> difference(const CameraSettings& asked, const ToldSet
   std::optional<double> told_exposure;
   if (told.exposure) told_exposure = static_cast<double>(told.exposure->count());
   if (auto text = compared("an exposure in us", exposure, told_exposure,
-                           std::max(kExposureStep, kExposureShare * exposure))) {
+                           std::max(kExposureStep, kShare * exposure))) {
     return text;
   }
-  if (auto text = compared("a gain", asked.gain, told.gain, kGainShare * asked.gain)) return text;
+  if (auto text = compared("a gain", asked.gain, told.gain, kShare * asked.gain)) return text;
   if (auto text =
-          compared("a gain of red", asked.red_gain, told.red_gain, kGainShare * asked.red_gain)) {
+          compared("a gain of red", asked.red_gain, told.red_gain, kShare * asked.red_gain)) {
     return text;
   }
-  if (auto text = compared("a gain of blue", asked.blue_gain, told.blue_gain,
-                           kGainShare * asked.blue_gain)) {
+  if (auto text =
+          compared("a gain of blue", asked.blue_gain, told.blue_gain, kShare * asked.blue_gain)) {
     return text;
   }
   if (!asked.lens_position) return std::nullopt;

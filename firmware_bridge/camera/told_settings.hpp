@@ -26,8 +26,8 @@ struct SettingsOffered {
 };
 
 /// How what a frame was taken with differs from what was asked, in words; none when it does not, or
-/// the camera does not say. Sensors expose by whole lines and amplify in steps: 2 % of an exposure
-/// or 100 µs, 5 % of a gain and 0.05 dioptres are no difference.
+/// the camera does not say. Sensors expose by whole lines and amplify in steps: a tenth of an
+/// exposure or of a gain, 100 µs and 0.05 dioptres are no difference.
 std::optional<std::string> difference(const CameraSettings& asked, const ToldSettings& told);
 
 /// Whether the camera says of all that it has and was asked for what it did.

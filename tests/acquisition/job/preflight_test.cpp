@@ -142,10 +142,10 @@ TEST(Preflight, TakesOtherSettingsOfTheCameraBeforeTheFirstLayer) {
 TEST(Preflight, RefusesACameraThatExposesAsItLikes) {
   JobBench bench;
   bench.settings.camera.settings.exposure = std::chrono::microseconds(15000);
-  expect_refusal(bench, "the camera used an exposure in µs of 10000 and was asked for 15000");
+  expect_refusal(bench, "the camera took a frame with an exposure in us of 10000 instead of 15000");
   bench.settings.camera.settings.exposure = std::chrono::microseconds(10000);
   bench.settings.camera.settings.gain = 2.0;
-  expect_refusal(bench, "the camera used a gain of 1 and was asked for 2");
+  expect_refusal(bench, "the camera took a frame with a gain of 1 instead of 2");
 }
 
 }  // namespace

@@ -170,7 +170,8 @@ TEST_F(RigCheck, ComparesTheTrialFrameWithWhatWasAskedFor) {
   bench.settings.camera.settings.exposure = std::chrono::microseconds(15000);
   bench.settings.plan.bits = 16;
   const RigFindings findings = check();
-  EXPECT_THAT(findings.all(), Contains(wrong("camera", "the camera used an exposure in µs of")));
+  EXPECT_THAT(findings.all(),
+              Contains(wrong("camera", "the camera took a frame with an exposure in us of")));
   EXPECT_THAT(findings.all(), Contains(wrong("camera", "job.bits is 16")));
 }
 

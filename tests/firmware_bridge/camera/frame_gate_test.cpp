@@ -20,7 +20,8 @@ CameraSettings settings(milliseconds exposure = milliseconds(10)) {
 DeliveredFrame frame_at(milliseconds time, milliseconds exposure = milliseconds(10)) {
   return {.timestamp = time,
           .duration = kFrame,
-          .told = {.exposure = microseconds(exposure), .gain = 1.0}};
+          .told = {.exposure = microseconds(exposure), .gain = 1.0},
+          .was_asked_before = false};
 }
 
 int refused_before(FrameGate& gate, const DeliveredFrame& frame) {
@@ -111,6 +112,18 @@ TEST(FrameGate, GivesACameraThatDoesNotTellTimeToObey) {
   // A stream that starts anew has to be told everything again.
   gate.start();
   EXPECT_EQ(refused_before(gate, frame), 2 + 6);
+}
+
+TEST(FrameGate, DoesNotCountWhatWasAskedForBeforeAsTimeToObey) {
+  FrameGate gate(kAll, false);
+  gate.ask(settings());
+  gate.open(milliseconds(1000));
+  DeliveredFrame frame = frame_at(milliseconds(2000));
+  frame.told.gain.reset();
+  frame.was_asked_before = true;
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(gate.refusal(frame));
+  frame.was_asked_before = false;
+  EXPECT_EQ(refused_before(gate, frame), 3);
 }
 
 TEST(FrameGate, AsksNothingOfACameraWithoutSettings) {

@@ -26,8 +26,8 @@ TEST(ToldSettings, OfAnObedientCameraDoNotDiffer) {
 
 TEST(ToldSettings, MayBeRounded) {
   ToldSettings told = kObeyed;
-  told.exposure = microseconds(20390);
-  told.gain = 1.92;
+  told.exposure = microseconds(21900);
+  told.gain = 1.85;
   told.lens_position = 5.04;
   EXPECT_EQ(difference(kAsked, told), std::nullopt);
 }
