@@ -6,6 +6,7 @@
 #include "acquisition/job/focus_actuators.hpp"
 #include "acquisition/job/lens_actuator.hpp"
 #include "acquisition/job/step_failure.hpp"
+#include "acquisition/number_text.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/camera/told_settings.hpp"
 
@@ -25,12 +26,6 @@ std::string outside_text(const std::string& what, bridge::Micrometres position, 
   text << what << " would be at " << position.value << " µm of the " << axis
        << ", outside its limits " << limits.minimum.value << " to " << limits.maximum.value
        << " µm: mend the configuration";
-  return text.str();
-}
-
-std::string number_text(double value) {
-  std::ostringstream text;
-  text << value;
   return text.str();
 }
 

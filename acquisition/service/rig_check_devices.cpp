@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdio>
 #include <exception>
-#include <sstream>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -11,6 +10,7 @@
 #include "acquisition/calibration/corrected_camera.hpp"
 #include "acquisition/job/capture.hpp"
 #include "acquisition/job/supervision.hpp"
+#include "acquisition/number_text.hpp"
 #include "acquisition/service/gpio_complaints.hpp"
 #include "firmware_bridge/device_error.hpp"
 #include "firmware_bridge/lines/gpio_chips.hpp"
@@ -26,12 +26,6 @@ constexpr const char* kCamera = "camera";
 constexpr const char* kCalibration = "calibration";
 constexpr milliseconds kLook{50};     // between two looks at the controller's heartbeat
 constexpr milliseconds kSettle{150};  // for inputs that are debounced
-
-std::string number_text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 std::string range_text(const char* axis, const bridge::AxisLimits& limits) {
   return std::string(axis) + " " + number_text(limits.minimum.value) + " to " +

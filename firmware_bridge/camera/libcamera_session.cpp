@@ -218,7 +218,7 @@ void LibcameraSession::queue_parked() {
 
 /// What arrived since the last capture is old.
 void LibcameraSession::park_completed() {
-  while (libcamera::Request* request = completed_.pop(Clock::time_point::min())) {
+  while (libcamera::Request* request = completed_.pop(Clock::now())) {
     parked_.push_back(request);
   }
 }

@@ -6,23 +6,49 @@
 
 #include <poll.h>
 
+#include "firmware_bridge/lines/gpio_chips_version.hpp"
+
 namespace biotomy::bridge {
 
-std::vector<std::filesystem::path> gpio_device_files() {
-  std::vector<std::filesystem::path> devices;
-  std::error_code ignored;  // a computer whose /dev cannot be listed has no chips for us
-  for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored)) {
-    if (!entry.path().filename().string().starts_with("gpiochip")) continue;
-    // A link is a second name of a chip, or dangles.
-    if (entry.is_character_file(ignored) && !entry.is_symlink(ignored)) {
-      devices.push_back(entry.path());
-    }
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A computer whose /dev cannot be listed has no chips for us.
+std::vector<fs::path> gpio_device_files() {
+  std::vector<fs::path> devices;
+  std::error_code error;
+  fs::directory_iterator entries("/dev", error);
+  for (const fs::directory_iterator end; !error && entries != end; entries.increment(error)) {
+    std::error_code gone;
+    const bool is_chip = entries->path().filename().string().starts_with("gpiochip") &&
+                         entries->is_character_file(gone);
+    // A link is a second name of a chip.
+    if (is_chip && !entries->is_symlink(gone)) devices.push_back(entries->path());
   }
   // gpiochip10 comes after gpiochip9.
-  std::ranges::sort(devices, {}, [](const std::filesystem::path& device) {
+  std::ranges::sort(devices, {}, [](const fs::path& device) {
     return std::pair(device.native().size(), device.native());
   });
   return devices;
+}
+
+class SystemChips final : public GpioChips {
+ public:
+  std::vector<fs::path> devices() override { return gpio_device_files(); }
+  GpioChipInfo describe(const fs::path& device) override { return describe_gpio_chip(device); }
+  std::unique_ptr<GpioInput> request_input(const GpioRequest& request) override {
+    return hold_gpio_input(request);
+  }
+  std::unique_ptr<GpioOutput> request_output(const GpioRequest& request) override {
+    return hold_gpio_output(request);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<GpioChips> make_gpio_chips() {
+  return std::make_unique<SystemChips>();
 }
 
 bool is_readable_now(int descriptor) {

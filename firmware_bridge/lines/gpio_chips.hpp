@@ -71,11 +71,4 @@ class GpioChips {
 /// The chips of this computer, by the libgpiod that the build found (version 1 or 2).
 std::unique_ptr<GpioChips> make_gpio_chips();
 
-/// "/dev/gpiochip0", "/dev/gpiochip1" … as there are.
-std::vector<std::filesystem::path> gpio_device_files();
-
-/// Whether a read of `descriptor` would not wait: there is data, or an error to fetch.
-/// Throws std::system_error.
-bool is_readable_now(int descriptor);
-
 }  // namespace biotomy::bridge

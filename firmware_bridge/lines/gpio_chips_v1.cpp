@@ -4,7 +4,7 @@
 
 #include <gpiod.hpp>
 
-#include "firmware_bridge/lines/gpio_chips.hpp"
+#include "firmware_bridge/lines/gpio_chips_version.hpp"
 
 namespace biotomy::bridge {
 
@@ -83,35 +83,27 @@ class Output final : public GpioOutput {
   HeldLine held_;
 };
 
-class SystemChips final : public GpioChips {
- public:
-  std::vector<std::filesystem::path> devices() override { return gpio_device_files(); }
-
-  GpioChipInfo describe(const std::filesystem::path& device) override {
-    const gpiod::chip chip = open_chip(device);
-    GpioChipInfo info{.device = device, .name = chip.name(), .label = chip.label(), .lines = {}};
-    for (unsigned int offset = 0; offset < chip.num_lines(); ++offset) {
-      const gpiod::line line = chip.get_line(offset);
-      info.lines.push_back({.name = line.name(),
-                            .is_output = line.direction() == gpiod::line::DIRECTION_OUTPUT,
-                            .is_used = line.is_used(),
-                            .consumer = line.consumer()});
-    }
-    return info;
-  }
-
-  std::unique_ptr<GpioInput> request_input(const GpioRequest& request) override {
-    return std::make_unique<Input>(request);
-  }
-  std::unique_ptr<GpioOutput> request_output(const GpioRequest& request) override {
-    return std::make_unique<Output>(request);
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<GpioChips> make_gpio_chips() {
-  return std::make_unique<SystemChips>();
+GpioChipInfo describe_gpio_chip(const std::filesystem::path& device) {
+  const gpiod::chip chip = open_chip(device);
+  GpioChipInfo info{.device = device, .name = chip.name(), .label = chip.label(), .lines = {}};
+  for (unsigned int offset = 0; offset < chip.num_lines(); ++offset) {
+    const gpiod::line line = chip.get_line(offset);
+    info.lines.push_back({.name = line.name(),
+                          .is_output = line.direction() == gpiod::line::DIRECTION_OUTPUT,
+                          .is_used = line.is_used(),
+                          .consumer = line.consumer()});
+  }
+  return info;
+}
+
+std::unique_ptr<GpioInput> hold_gpio_input(const GpioRequest& request) {
+  return std::make_unique<Input>(request);
+}
+
+std::unique_ptr<GpioOutput> hold_gpio_output(const GpioRequest& request) {
+  return std::make_unique<Output>(request);
 }
 
 }  // namespace biotomy::bridge

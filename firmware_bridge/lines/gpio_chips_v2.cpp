@@ -6,7 +6,7 @@
 
 #include <gpiod.hpp>
 
-#include "firmware_bridge/lines/gpio_chips.hpp"
+#include "firmware_bridge/lines/gpio_chips_version.hpp"
 
 namespace biotomy::bridge {
 
@@ -96,40 +96,31 @@ class Output final : public GpioOutput {
   gpiod::line_request request_;
 };
 
-class SystemChips final : public GpioChips {
- public:
-  std::vector<std::filesystem::path> devices() override { return gpio_device_files(); }
-
-  GpioChipInfo describe(const std::filesystem::path& device) override {
-    return with_system_errors([&] {
-      const gpiod::chip chip(device);
-      const gpiod::chip_info about = chip.get_info();
-      GpioChipInfo info{
-          .device = device, .name = about.name(), .label = about.label(), .lines = {}};
-      for (std::size_t offset = 0; offset < about.num_lines(); ++offset) {
-        const gpiod::line_info line =
-            chip.get_line_info(gpiod::line::offset(static_cast<unsigned int>(offset)));
-        info.lines.push_back({.name = line.name(),
-                              .is_output = line.direction() == gpiod::line::direction::OUTPUT,
-                              .is_used = line.used(),
-                              .consumer = line.consumer()});
-      }
-      return info;
-    });
-  }
-
-  std::unique_ptr<GpioInput> request_input(const GpioRequest& request) override {
-    return std::make_unique<Input>(request);
-  }
-  std::unique_ptr<GpioOutput> request_output(const GpioRequest& request) override {
-    return std::make_unique<Output>(request);
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<GpioChips> make_gpio_chips() {
-  return std::make_unique<SystemChips>();
+GpioChipInfo describe_gpio_chip(const std::filesystem::path& device) {
+  return with_system_errors([&] {
+    const gpiod::chip chip(device);
+    const gpiod::chip_info about = chip.get_info();
+    GpioChipInfo info{.device = device, .name = about.name(), .label = about.label(), .lines = {}};
+    for (std::size_t offset = 0; offset < about.num_lines(); ++offset) {
+      const gpiod::line_info line =
+          chip.get_line_info(gpiod::line::offset(static_cast<unsigned int>(offset)));
+      info.lines.push_back({.name = line.name(),
+                            .is_output = line.direction() == gpiod::line::direction::OUTPUT,
+                            .is_used = line.used(),
+                            .consumer = line.consumer()});
+    }
+    return info;
+  });
+}
+
+std::unique_ptr<GpioInput> hold_gpio_input(const GpioRequest& request) {
+  return std::make_unique<Input>(request);
+}
+
+std::unique_ptr<GpioOutput> hold_gpio_output(const GpioRequest& request) {
+  return std::make_unique<Output>(request);
 }
 
 }  // namespace biotomy::bridge
