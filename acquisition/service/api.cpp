@@ -157,11 +157,4 @@ ApiResponse Api::control(const std::string& name, const ApiRequest& request) con
   return json_response(reply_json(answer.sentence));
 }
 
-ApiResponse error_response(int status, const std::string& message) {
-  return {.status = status,
-          .content_type = "application/json",
-          .body = error_json(status, message),
-          .headers = {}};
-}
-
 }  // namespace biotomy::acquisition

@@ -3,30 +3,14 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 
+#include "acquisition/http/message.hpp"
 #include "acquisition/job/job_status.hpp"
 #include "acquisition/job/operator_desk.hpp"
 #include "acquisition/service/access.hpp"
 
 namespace biotomy::acquisition {
-
-struct ApiRequest {
-  std::string method;  ///< "GET", "POST", …; HEAD is asked as GET
-  std::string path;    ///< without the query
-  std::map<std::string, std::string> query;
-  std::string authorization;  ///< value of the header; empty if there is none
-  std::string body;
-  std::string client;  ///< the address that it came from
-};
-
-struct ApiResponse {
-  int status = 200;
-  std::string content_type = "application/json";
-  std::string body;
-  std::map<std::string, std::string> headers;
-};
 
 /// What the API looks at and speaks to. All outlive it.
 struct ApiParts {
@@ -55,7 +39,5 @@ class Api {
   ApiParts parts_;
   std::chrono::milliseconds reply_time_out_;
 };
-
-ApiResponse error_response(int status, const std::string& message);
 
 }  // namespace biotomy::acquisition

@@ -129,10 +129,6 @@ std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count)
   return dumped({{"count", count}, {"layers", list}});
 }
 
-std::string error_json(int code, const std::string& message) {
-  return dumped({{"error", {{"code", code}, {"message", message}}}});
-}
-
 std::string reply_json(const std::string& message) {
   return dumped({{"accepted", true}, {"message", message}});
 }

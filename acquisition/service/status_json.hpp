@@ -14,9 +14,6 @@ std::string status_json(const JobStatus& status);
 /// The JSON of GET /api/v1/layers.
 std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count);
 
-/// {"error": {"code": …, "message": …}}
-std::string error_json(int code, const std::string& message);
-
 /// {"accepted": true, "message": …}
 std::string reply_json(const std::string& message);
 

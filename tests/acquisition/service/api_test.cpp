@@ -56,12 +56,17 @@ struct ApiTest : testing::Test {
   }
 
   ApiResponse get(const std::string& path, std::map<std::string, std::string> query = {}) const {
-    return api->answer({"GET", path, std::move(query), "", "", "127.0.0.1"});
+    return api->answer(
+        {.method = "GET", .path = path, .query = std::move(query), .client = "127.0.0.1"});
   }
 
   ApiResponse post(const std::string& path, const std::string& authorization,
                    const std::string& body = "") const {
-    return api->answer({"POST", path, {}, authorization, body, "10.0.0.7"});
+    return api->answer({.method = "POST",
+                        .path = path,
+                        .authorization = authorization,
+                        .body = body,
+                        .client = "10.0.0.7"});
   }
 };
 
@@ -158,9 +163,11 @@ TEST_F(ApiTest, ShowsNothingButItsHealthWithoutATokenWhenReadingNeedsOne) {
   api.emplace(answered_by(desk, closed));
   for (const char* path : {"/", "/metrics", "/api/v1/status", "/api/v1/layers"}) {
     EXPECT_EQ(get(path).status, 401) << path;
-    EXPECT_EQ(api->answer({"GET", path, {}, std::string("Bearer ") + kToken, "", "::1"}).status,
-              200)
-        << path;
+    const ApiRequest known{.method = "GET",
+                           .path = path,
+                           .authorization = std::string("Bearer ") + kToken,
+                           .client = "::1"};
+    EXPECT_EQ(api->answer(known).status, 200) << path;
   }
   EXPECT_EQ(get("/healthz").status, 200);
 }
@@ -192,8 +199,11 @@ TEST_F(ApiTest, SaysWhenTheControlDoesNotAnswer) {
 
 TEST_F(ApiTest, HandsOnWhatTheJobAnswers) {
   const std::string authorization = std::string("Bearer ") + kToken;
-  const ApiRequest start{"POST",        "/api/v1/control/start",         {},
-                         authorization, R"({"reason": "good evening"})", "::1"};
+  const ApiRequest start{.method = "POST",
+                         .path = "/api/v1/control/start",
+                         .authorization = authorization,
+                         .body = R"({"reason": "good evening"})",
+                         .client = "::1"};
   {
     AnsweredDesk willing({true, "the checks have begun"});
     const Api answered = patient(willing.desk);

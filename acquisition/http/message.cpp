@@ -1,0 +1,14 @@
+#include "acquisition/http/message.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace biotomy::acquisition {
+
+ApiResponse error_response(int status, const std::string& message) {
+  const nlohmann::json body = {{"error", {{"code", status}, {"message", message}}}};
+  // Names of files need not be UTF-8: what is not becomes a replacement character.
+  return {.status = status,
+          .body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+}
+
+}  // namespace biotomy::acquisition

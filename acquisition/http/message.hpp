@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace biotomy::acquisition {
+
+/// What was asked over HTTP, without a word of HTTP's own framing.
+struct ApiRequest {
+  std::string method = {};                        ///< "GET", "POST", …; HEAD is asked as GET
+  std::string path = {};                          ///< decoded, without the query
+  std::map<std::string, std::string> query = {};  ///< decoded; of a name given twice, the last
+  std::string authorization = {};  ///< the header's value, here and below; empty if none
+  std::string origin = {};
+  std::string range = {};
+  std::string if_none_match = {};
+  std::string accept_encoding = {};
+  std::string body = {};
+  std::string client = {};  ///< the address that it came from
+  std::function<bool()> client_left =
+      {};  ///< asked between two pieces of a long work; may be empty
+};
+
+/// A part of a file as a response's body; it is read while it is sent.
+struct FilePart {
+  std::filesystem::path file;
+  std::uint64_t begin = 0;
+  std::uint64_t bytes = 0;
+};
+
+struct ApiResponse {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body = {};
+  std::map<std::string, std::string> headers = {};
+  std::optional<FilePart> file = {};  ///< in place of `body`
+};
+
+/// What a request asks of the computer: each lane has threads of its own, so that none waits for
+/// another kind of work.
+enum class Lane {
+  quick,    ///< looks at memory and a few rows of the journal
+  files,    ///< reads parts of files
+  pictures  ///< decodes, samples and encodes: bounded, and of lower priority than the run
+};
+
+/// {"error": {"code": …, "message": …}}
+ApiResponse error_response(int status, const std::string& message);
+
+}  // namespace biotomy::acquisition
