@@ -19,7 +19,8 @@
 #include "acquisition/viewer/refusal.hpp"
 #include "acquisition/viewer/request_text.hpp"
 #include "acquisition/viewer/sample_json.hpp"
-#include "acquisition/viewer/section_pictures.hpp"
+#include "acquisition/viewer/section_task.hpp"
+#include "acquisition/viewer/series_pictures.hpp"
 #include "acquisition/viewer/volume_files.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/interruption.hpp"
@@ -68,7 +69,7 @@ struct SampleApi::State {
   ViewerSettings settings;
   mutable LiveSample live;
   mutable tbb::task_arena arena;
-  SectionPictures sections;
+  SeriesPictures series;
   LayerRecords records;
   mutable LayerImages images;
   VolumeFiles volume;
@@ -78,7 +79,7 @@ struct SampleApi::State {
         live(std::move(sample), settings.cache_bytes),
         arena(threads_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
               tbb::task_arena::priority::low),
-        sections(live, arena),
+        series(live),
         records(live, settings.journal),
         images(live, records, arena, settings.decoded_bytes),
         volume(live.folder() / "volume.ome.zarr", settings.neuroglancer) {}
@@ -121,9 +122,17 @@ struct SampleApi::State {
     if (first == "layers") return layers(rest, request);
     if (first == "rejected" && rest.empty()) return records.rejected(request);
     if (first == "rejected" && rest.size() == 1) return records.rejected_picture(rest[0], request);
-    if (first == "section" && rest.empty()) return sections.picture(request);
+    if (first == "section" && rest.empty()) {
+      return picture_of(section_task(live, request.query), request, arena);
+    }
     if (first == "section" && rest == std::vector<std::string>{"outline"}) {
-      return sections.outline(request);
+      return outline_of(section_task(live, request.query));
+    }
+    if (first == "series" && rest == std::vector<std::string>{"frames"}) {
+      return series.frames(request);
+    }
+    if (first == "series" && rest == std::vector<std::string>{"frame"}) {
+      return picture_of(series.frame_task(request.query), request, arena);
     }
     if (first == "sample" && rest.empty()) return sample();
     if (first == "history" && rest.empty()) return records.history(request);
@@ -137,8 +146,8 @@ SampleApi::SampleApi(std::filesystem::path sample, ViewerSettings settings)
 SampleApi::~SampleApi() = default;
 
 bool SampleApi::answers(const ApiRequest& request) const {
-  static constexpr std::array<std::string_view, 5> kFirst = {"sample", "layers", "rejected",
-                                                             "history", "section"};
+  static constexpr std::array<std::string_view, 6> kFirst = {"sample",  "layers",  "rejected",
+                                                             "history", "section", "series"};
   if (request.path.starts_with(kVolume)) return true;
   const std::vector<std::string> words = words_of(request.path);
   return !words.empty() && std::find(kFirst.begin(), kFirst.end(), words[0]) != kFirst.end();
