@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "acquisition/records/journal_reader.hpp"
+
+namespace biotomy::acquisition {
+
+/// How much of the computer looking at a sample may take, and who may.
+struct ViewerSettings {
+  std::size_t cache_bytes = 256'000'000;    ///< of decoded chunks, at most
+  std::size_t decoded_bytes = 160'000'000;  ///< of decoded layers, at most, or one layer
+  int threads = 0;                          ///< that sample one section; 0: half of the processors
+  /// Whether somebody may write the sample's journal meanwhile.
+  JournalReader::Journal journal = JournalReader::Journal::in_use;
+  std::filesystem::path exports = {};  ///< where they lie; empty: SAMPLE-exports, beside the sample
+  /// Bytes of that disk that nobody else needs; if none: all but 1 GiB.
+  std::function<std::uint64_t()> bytes_to_spare = {};
+};
+
+}  // namespace biotomy::acquisition
