@@ -39,11 +39,11 @@ export function marksWith(marks: LayerMarks, attempts: Iterable<JudgedAttempt>):
 
 function markWith(mark: LayerMark, verdict: string): LayerMark {
   switch (verdict) {
-    case 'rejected':
+    case "rejected":
       return { ...mark, rejected: mark.rejected + 1 };
-    case 'accepted_with_flag':
+    case "accepted_with_flag":
       return { ...mark, flagged: true, accepted: true };
-    case 'accepted':
+    case "accepted":
       return { ...mark, accepted: true };
     default:
       return mark;

@@ -1,8 +1,8 @@
 /** The layers that the film strip shows, in order: all of them, or those of a filter. */
 
-import type { LayerMark, LayerMarks } from './layer_marks';
+import type { LayerMark, LayerMarks } from "./layer_marks";
 
-export type LayerFilter = 'all' | 'rejected' | 'flagged';
+export type LayerFilter = "all" | "rejected" | "flagged";
 
 export interface LayerSequence {
   readonly count: number;
@@ -43,7 +43,7 @@ function nearestIndex(layers: readonly number[], layer: number): number {
   return before !== undefined && layer - before < after - layer ? low - 1 : low;
 }
 
-const passes: Record<Exclude<LayerFilter, 'all'>, (mark: LayerMark) => boolean> = {
+const passes: Record<Exclude<LayerFilter, "all">, (mark: LayerMark) => boolean> = {
   rejected: (mark) => mark.rejected > 0,
   flagged: (mark) => mark.flagged,
 };
@@ -54,7 +54,7 @@ export function filteredLayers(
   marks: LayerMarks,
   highest: number,
 ): LayerSequence {
-  if (filter === 'all') return allLayers(highest);
+  if (filter === "all") return allLayers(highest);
   const layers: number[] = [];
   for (const [layer, mark] of marks.byLayer) {
     if (layer <= highest && passes[filter](mark)) layers.push(layer);

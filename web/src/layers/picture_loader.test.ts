@@ -1,12 +1,13 @@
-import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { PictureLoader, type PictureFailure } from './picture_loader';
+import { ApiError, ConnectionError } from "../api/client";
+import { PictureLoader } from "./picture_loader";
 
 interface Asked {
   address: string;
   signal: AbortSignal;
   answer(picture: string): void;
-  fail(failure: PictureFailure): void;
+  fail(error: Error): void;
 }
 
 function bench(kept = 3, atOnce = 2) {
@@ -18,7 +19,7 @@ function bench(kept = 3, atOnce = 2) {
       fetch: (address, signal) =>
         new Promise((answer, fail) => {
           asked.push({ address, signal, answer, fail });
-          signal.addEventListener('abort', () => fail(new Error('aborted')));
+          signal.addEventListener("abort", () => fail(new Error("aborted")));
         }),
       dispose: (picture) => disposed.push(picture),
       changed,
@@ -29,55 +30,52 @@ function bench(kept = 3, atOnce = 2) {
 }
 
 const settle = () => vi.advanceTimersByTimeAsync(0);
-const failure = (status: number, retryAfterMs: number | null = null): PictureFailure => ({
-  status,
-  retryAfterMs,
-  message: 'no',
-});
+const refusal = (status: number, retryAfter: number | null = null) =>
+  new ApiError(status, "code", "no", retryAfter);
 
 beforeEach(() => vi.useFakeTimers());
 afterEach(() => vi.useRealTimers());
 
-describe('loading', () => {
-  it('asks for a few at a time, the most urgent first', async () => {
+describe("loading", () => {
+  it("asks for a few at a time, the most urgent first", async () => {
     const { asked, loader, addresses } = bench();
-    loader.want(['a', 'b', 'c']);
-    expect(addresses()).toEqual(['a', 'b']);
-    asked[0]?.answer('A');
+    loader.want(["a", "b", "c"]);
+    expect(addresses()).toEqual(["a", "b"]);
+    asked[0]?.answer("A");
     await settle();
-    expect(addresses()).toEqual(['a', 'b', 'c']);
-    expect(loader.picture('a')).toBe('A');
+    expect(addresses()).toEqual(["a", "b", "c"]);
+    expect(loader.picture("a")).toBe("A");
     expect(loader.settled()).toBe(false);
   });
 
-  it('aborts what is no longer wanted, and asks no more for it', async () => {
+  it("aborts what is no longer wanted, and asks no more for it", async () => {
     const { asked, loader, addresses } = bench();
-    loader.want(['a', 'b', 'c']);
-    loader.want(['d']);
+    loader.want(["a", "b", "c"]);
+    loader.want(["d"]);
     await settle();
     expect(asked.map((each) => each.signal.aborted)).toEqual([true, true, false]);
-    expect(addresses()).toEqual(['a', 'b', 'd']);
+    expect(addresses()).toEqual(["a", "b", "d"]);
   });
 
-  it('goes on with what is still wanted', () => {
+  it("goes on with what is still wanted", () => {
     const { asked, loader, addresses } = bench();
-    loader.want(['a', 'b']);
-    loader.want(['b', 'c']);
-    expect(addresses()).toEqual(['a', 'b', 'c']);
+    loader.want(["a", "b"]);
+    loader.want(["b", "c"]);
+    expect(addresses()).toEqual(["a", "b", "c"]);
     expect(asked[1]?.signal.aborted).toBe(false);
   });
 
-  it('asks once for what is there', async () => {
+  it("asks once for what is there", async () => {
     const { asked, loader, addresses } = bench();
-    loader.want(['a']);
-    asked[0]?.answer('A');
+    loader.want(["a"]);
+    asked[0]?.answer("A");
     await settle();
-    loader.want(['a']);
-    expect(addresses()).toEqual(['a']);
+    loader.want(["a"]);
+    expect(addresses()).toEqual(["a"]);
     expect(loader.settled()).toBe(true);
   });
 
-  it('gives back a picture that came after its request was aborted', async () => {
+  it("gives back a picture that came after its request was aborted", async () => {
     const disposed: string[] = [];
     let answer = (_: string) => {};
     const loader = new PictureLoader<string>(
@@ -88,16 +86,16 @@ describe('loading', () => {
       },
       { kept: 3, atOnce: 2 },
     );
-    loader.want(['a']);
+    loader.want(["a"]);
     loader.want([]);
-    answer('A');
+    answer("A");
     await settle();
-    expect(disposed).toEqual(['A']);
-    expect(loader.picture('a')).toBeUndefined();
+    expect(disposed).toEqual(["A"]);
+    expect(loader.picture("a")).toBeUndefined();
   });
 });
 
-describe('keeping', () => {
+describe("keeping", () => {
   async function fill(of: ReturnType<typeof bench>, addresses: string[]) {
     for (const address of addresses) {
       of.loader.want([address]);
@@ -106,62 +104,62 @@ describe('keeping', () => {
     }
   }
 
-  it('forgets the one that was not wanted for longest', async () => {
+  it("forgets the one that was not wanted for longest", async () => {
     const made = bench();
-    await fill(made, ['a', 'b', 'c']);
-    made.loader.want(['a']);
-    await fill(made, ['d']);
-    expect(made.disposed).toEqual(['B']);
-    expect(made.loader.picture('a')).toBe('A');
+    await fill(made, ["a", "b", "c"]);
+    made.loader.want(["a"]);
+    await fill(made, ["d"]);
+    expect(made.disposed).toEqual(["B"]);
+    expect(made.loader.picture("a")).toBe("A");
   });
 
-  it('keeps all that is wanted', async () => {
+  it("keeps all that is wanted", async () => {
     const made = bench(1, 5);
-    made.loader.want(['a', 'b']);
+    made.loader.want(["a", "b"]);
     made.asked.forEach((each) => each.answer(each.address));
     await settle();
     expect(made.disposed).toEqual([]);
     made.loader.want([]);
-    expect(made.disposed).toEqual(['a']);
+    expect(made.disposed).toEqual(["a"]);
   });
 
-  it('gives everything back when it is closed', async () => {
+  it("gives everything back when it is closed", async () => {
     const made = bench();
-    await fill(made, ['a', 'b']);
+    await fill(made, ["a", "b"]);
     made.loader.close();
-    expect(made.disposed.sort()).toEqual(['A', 'B']);
+    expect(made.disposed.sort()).toEqual(["A", "B"]);
   });
 });
 
-describe('failures', () => {
-  it('are final where asking again would not help', async () => {
+describe("failures", () => {
+  it("are final where asking again would not help", async () => {
     const { asked, loader, addresses } = bench();
-    loader.want(['a']);
-    asked[0]?.fail(failure(404));
+    loader.want(["a"]);
+    asked[0]?.fail(refusal(404));
     await settle();
     await vi.advanceTimersByTimeAsync(60_000);
-    expect(addresses()).toEqual(['a']);
-    expect(loader.failure('a')?.status).toBe(404);
+    expect(addresses()).toEqual(["a"]);
+    expect(loader.failure("a")?.message).toBe("no");
     expect(loader.settled()).toBe(true);
   });
 
-  it('are tried again when the server says when', async () => {
+  it("are tried again when the server says when", async () => {
     const { asked, loader, addresses } = bench();
-    loader.want(['a']);
-    asked[0]?.fail(failure(429, 2000));
+    loader.want(["a"]);
+    asked[0]?.fail(refusal(429, 2));
     await vi.advanceTimersByTimeAsync(1999);
-    expect(addresses()).toEqual(['a']);
+    expect(addresses()).toEqual(["a"]);
     await vi.advanceTimersByTimeAsync(1);
-    expect(addresses()).toEqual(['a', 'a']);
+    expect(addresses()).toEqual(["a", "a"]);
   });
 
-  it('are tried again at growing intervals while nobody answers', async () => {
+  it("are tried again at growing intervals while nobody answers", async () => {
     const { asked, loader } = bench();
-    loader.want(['a']);
-    asked[0]?.fail(failure(0));
+    loader.want(["a"]);
+    asked[0]?.fail(new ConnectionError());
     await vi.advanceTimersByTimeAsync(500);
     expect(asked).toHaveLength(2);
-    asked[1]?.fail(failure(0));
+    asked[1]?.fail(new ConnectionError());
     await vi.advanceTimersByTimeAsync(999);
     expect(asked).toHaveLength(2);
     await vi.advanceTimersByTimeAsync(1);

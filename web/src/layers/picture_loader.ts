@@ -1,18 +1,12 @@
+import { ApiError, ConnectionError } from "../api/client";
+
 /**
  * Fetches pictures in the order in which they are wanted, a few at a time, and keeps a bounded
  * number of them. What is no longer wanted is not fetched any further.
  */
 
-/** Why a picture did not come, as far as it matters when to ask again. */
-export interface PictureFailure {
-  /** HTTP status; 0 when nothing answered. */
-  readonly status: number;
-  readonly retryAfterMs: number | null;
-  readonly message: string;
-}
-
 export interface PictureLoaderParts<Picture> {
-  /** Rejects with a PictureFailure, or with anything once `signal` is aborted. */
+  /** Rejects with an ApiError or a ConnectionError, or with anything once `signal` is aborted. */
   fetch(address: string, signal: AbortSignal): Promise<Picture>;
   /** Gives back what the picture holds. */
   dispose(picture: Picture): void;
@@ -26,15 +20,15 @@ export interface PictureLoaderLimits {
   readonly atOnce: number;
 }
 
-/** Answers that mean "not now": too many requests, queue full, nobody there. */
-const passing = new Set([0, 429, 502, 503, 504]);
+/** Answers that mean "not now": too many requests, queue full. */
+const passing = new Set([429, 502, 503, 504]);
 const shortestWaitMs = 500;
 const longestWaitMs = 8000;
 
 export class PictureLoader<Picture> {
   private readonly pictures = new Map<string, Picture>();
   private readonly underWay = new Map<string, AbortController>();
-  private readonly failures = new Map<string, PictureFailure>();
+  private readonly failures = new Map<string, Error>();
   private wanted: readonly string[] = [];
   private waitMs = 0;
   private waiting: ReturnType<typeof setTimeout> | null = null;
@@ -66,7 +60,7 @@ export class PictureLoader<Picture> {
   }
 
   /** Why a picture will not come by itself. */
-  failure(address: string): PictureFailure | undefined {
+  failure(address: string): Error | undefined {
     return this.failures.get(address);
   }
 
@@ -105,7 +99,7 @@ export class PictureLoader<Picture> {
       this.waitMs = 0;
     } catch (error) {
       if (request.signal.aborted) return;
-      this.failed(address, asFailure(error));
+      this.failed(address, error);
     }
     this.underWay.delete(address);
     this.forgetOldest(new Set(this.wanted));
@@ -113,20 +107,25 @@ export class PictureLoader<Picture> {
     this.startNext();
   }
 
-  private failed(address: string, failure: PictureFailure): void {
-    if (!passing.has(failure.status)) {
-      this.failures.set(address, failure);
+  private failed(address: string, error: unknown): void {
+    const wait = this.waitAfter(error);
+    if (wait === null) {
+      this.failures.set(address, error instanceof Error ? error : new Error(String(error)));
       return;
     }
+    this.waiting ??= setTimeout(() => {
+      this.waiting = null;
+      this.startNext();
+    }, wait);
+  }
+
+  /** How long until it may go better; nothing where it will not. */
+  private waitAfter(error: unknown): number | null {
+    const answered = error instanceof ApiError && passing.has(error.status);
+    if (!answered && !(error instanceof ConnectionError)) return null;
     this.waitMs = Math.min(Math.max(this.waitMs * 2, shortestWaitMs), longestWaitMs);
-    if (this.waiting !== null) return;
-    this.waiting = setTimeout(
-      () => {
-        this.waiting = null;
-        this.startNext();
-      },
-      Math.min(failure.retryAfterMs ?? this.waitMs, longestWaitMs),
-    );
+    const asked = answered ? error.retryAfter : null;
+    return asked === null ? this.waitMs : Math.min(asked * 1000, longestWaitMs);
   }
 
   /** Moves a picture to the end of those that are forgotten first. */
@@ -145,11 +144,4 @@ export class PictureLoader<Picture> {
       this.parts.dispose(picture);
     }
   }
-}
-
-function asFailure(error: unknown): PictureFailure {
-  if (typeof error === 'object' && error !== null && 'status' in error) {
-    return error as PictureFailure;
-  }
-  return { status: -1, retryAfterMs: null, message: String(error) };
 }

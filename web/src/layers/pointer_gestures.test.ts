@@ -1,6 +1,6 @@
-import { describe, expect, it, vi } from 'vitest';
+import { describe, expect, it, vi } from "vitest";
 
-import { PointerGestures } from './pointer_gestures';
+import { PointerGestures } from "./pointer_gestures";
 
 function bench() {
   const heard = { dragged: vi.fn(), pinched: vi.fn(), doubleTapped: vi.fn(), swiped: vi.fn() };
@@ -9,8 +9,8 @@ function bench() {
 
 const at = (x: number, y: number, timeMs = 0, id = 1) => ({ id, x, y, timeMs });
 
-describe('one finger', () => {
-  it('drags', () => {
+describe("one finger", () => {
+  it("drags", () => {
     const { heard, gestures } = bench();
     gestures.down(at(10, 10));
     gestures.move(at(15, 8));
@@ -18,13 +18,13 @@ describe('one finger', () => {
     expect(heard.dragged.mock.calls).toEqual([[{ x: 5, y: -2 }], [{ x: 1, y: 1 }]]);
   });
 
-  it('moves nothing while it is up', () => {
+  it("moves nothing while it is up", () => {
     const { heard, gestures } = bench();
     gestures.move(at(15, 8));
     expect(heard.dragged).not.toHaveBeenCalled();
   });
 
-  it('swipes when it goes sideways quickly', () => {
+  it("swipes when it goes sideways quickly", () => {
     const { heard, gestures } = bench();
     gestures.down(at(200, 100, 0));
     gestures.up(at(100, 110, 200));
@@ -34,17 +34,17 @@ describe('one finger', () => {
   });
 
   it.each([
-    [100, 110, 900, 'slowly'],
-    [100, 200, 200, 'downwards'],
-    [170, 100, 200, 'a little'],
-  ])('does not swipe to %f, %f in %f ms: %s', (x, y, timeMs) => {
+    [100, 110, 900, "slowly"],
+    [100, 200, 200, "downwards"],
+    [170, 100, 200, "a little"],
+  ])("does not swipe to %f, %f in %f ms: %s", (x, y, timeMs) => {
     const { heard, gestures } = bench();
     gestures.down(at(200, 100, 0));
     gestures.up(at(x, y, timeMs));
     expect(heard.swiped).not.toHaveBeenCalled();
   });
 
-  it('taps twice', () => {
+  it("taps twice", () => {
     const { heard, gestures } = bench();
     const tap = (x: number, timeMs: number) => {
       gestures.down(at(x, 50, timeMs));
@@ -61,8 +61,8 @@ describe('one finger', () => {
   });
 });
 
-describe('two fingers', () => {
-  it('pinch about their middle and neither swipe nor tap', () => {
+describe("two fingers", () => {
+  it("pinch about their middle and neither swipe nor tap", () => {
     const { heard, gestures } = bench();
     gestures.down(at(100, 100, 0, 1));
     gestures.down(at(200, 100, 0, 2));
@@ -74,7 +74,7 @@ describe('two fingers', () => {
     expect(heard.doubleTapped).not.toHaveBeenCalled();
   });
 
-  it('leave the other one dragging', () => {
+  it("leave the other one dragging", () => {
     const { heard, gestures } = bench();
     gestures.down(at(100, 100, 0, 1));
     gestures.down(at(200, 100, 0, 2));

@@ -1,6 +1,6 @@
 /** What fingers and the mouse do on a picture: drag, pinch, double tap, swipe. */
 
-import type { Point } from './viewport';
+import type { Point } from "./viewport";
 
 export interface PointerPlace extends Point {
   readonly id: number;

@@ -4,7 +4,7 @@
  * corner.
  */
 
-import type { Point, Viewport } from './viewport';
+import type { Point, Viewport } from "./viewport";
 
 export interface PixelSize {
   /** Micrometres, along x and y. */
@@ -37,9 +37,9 @@ export function viewToLink(view: Viewport, pixel: PixelSize): URLSearchParams {
 
 /** The view that a link names; nothing when it names none, or none that can be. */
 export function viewFromLink(parameters: URLSearchParams, pixel: PixelSize): Viewport | null {
-  const at = parameters.get('at')?.split(',') ?? [];
-  const [x, y] = at.map((text) => (text.trim() === '' ? NaN : Number(text)));
-  const scale = Number(parameters.get('zoom') ?? NaN);
+  const at = parameters.get("at")?.split(",") ?? [];
+  const [x, y] = at.map((text) => (text.trim() === "" ? NaN : Number(text)));
+  const scale = Number(parameters.get("zoom") ?? NaN);
   if (at.length !== 2 || x === undefined || y === undefined) return null;
   if (!Number.isFinite(x) || !Number.isFinite(y) || !Number.isFinite(scale) || scale <= 0)
     return null;

@@ -1,20 +1,8 @@
 /** The tile map of sharpness of a layer, as /api/v1/layers/N/sharpness gives it. */
 
-import type { Point } from './viewport';
-import type { Rectangle } from './tile_pyramid';
-
-export interface SharpnessMap {
-  readonly layer: number;
-  readonly columns: number;
-  readonly rows: number;
-  /** Pixels of the layer's image. */
-  readonly tile_width: number;
-  readonly tile_height: number;
-  /** What the values are, in words. */
-  readonly measure: string;
-  /** Row by row; null where there is too little detail to tell. */
-  readonly values: readonly (number | null)[];
-}
+import type { Sharpness } from "../api/types";
+import type { Rectangle } from "./tile_pyramid";
+import type { Point } from "./viewport";
 
 export interface ValueRange {
   readonly low: number;
@@ -26,7 +14,7 @@ export interface ValueRange {
  * may lie beyond, so that one odd tile does not take the colours from all others. Nothing where no
  * tile has a value.
  */
-export function shownRange(map: SharpnessMap): ValueRange | null {
+export function shownRange(map: Sharpness): ValueRange | null {
   const values = map.values.filter((value): value is number => value !== null);
   if (values.length === 0) return null;
   values.sort((a, b) => a - b);
@@ -43,7 +31,7 @@ export function partOf(value: number, range: ValueRange): number {
 }
 
 /** The tile's number at a place in pixels of the image; nothing beside the picture. */
-export function tileAt(map: SharpnessMap, place: Point): number | null {
+export function tileAt(map: Sharpness, place: Point): number | null {
   const column = Math.floor(place.x / map.tile_width);
   const row = Math.floor(place.y / map.tile_height);
   if (column < 0 || row < 0) return null;
@@ -52,7 +40,7 @@ export function tileAt(map: SharpnessMap, place: Point): number | null {
 }
 
 /** What a tile covers, in pixels of the image. */
-export function mapTile(map: SharpnessMap, number: number): Rectangle {
+export function mapTile(map: Sharpness, number: number): Rectangle {
   const column = number % map.columns;
   const row = Math.floor(number / map.columns);
   return {

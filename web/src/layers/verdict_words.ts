@@ -1,6 +1,6 @@
 /** Verdicts of the journal in words, and how they are marked. */
 
-export type VerdictMark = 'good' | 'flagged' | 'rejected' | 'lost';
+export type VerdictMark = "good" | "flagged" | "rejected" | "lost";
 
 export interface VerdictWords {
   readonly title: string;
@@ -9,20 +9,20 @@ export interface VerdictWords {
 
 export function verdictWords(verdict: string): VerdictWords {
   switch (verdict) {
-    case 'accepted':
-      return { title: 'Accepted', mark: 'good' };
-    case 'accepted_with_flag':
-      return { title: 'Accepted with a flag', mark: 'flagged' };
-    case 'rejected':
-      return { title: 'Rejected', mark: 'rejected' };
-    case 'not_stored':
-      return { title: 'Good, but not stored', mark: 'lost' };
+    case "accepted":
+      return { title: "Accepted", mark: "good" };
+    case "accepted_with_flag":
+      return { title: "Accepted with a flag", mark: "flagged" };
+    case "rejected":
+      return { title: "Rejected", mark: "rejected" };
+    case "not_stored":
+      return { title: "Good, but not stored", mark: "lost" };
     default:
-      return { title: verdict, mark: 'lost' };
+      return { title: verdict, mark: "lost" };
   }
 }
 
 /** The slug of a reason in words: "face-unchanged" is "face unchanged". */
 export function slugWords(slug: string): string {
-  return slug.replaceAll('-', ' ');
+  return slug.replaceAll("-", " ");
 }

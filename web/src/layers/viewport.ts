@@ -4,7 +4,7 @@
  * CSS pixels from the frame's.
  */
 
-import type { PictureSize, Rectangle } from './tile_pyramid';
+import type { PictureSize, Rectangle } from "./tile_pyramid";
 
 export interface Point {
   readonly x: number;
