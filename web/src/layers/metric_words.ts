@@ -12,47 +12,49 @@ export interface MetricWords {
   readonly unit: Unit;
 }
 
-const known: Readonly<Record<string, MetricWords>> = {
-  sharpness_ratio: { title: "Sharpness", bound: "least", unit: "ratio" },
-  sharpness_along_axis: {
-    title: "Sharpness along the weaker axis",
-    bound: "least",
-    unit: "ratio",
-  },
-  fine_contrast: { title: "Contrast of fine detail", bound: "least", unit: "ratio" },
-  sharpness_to_record: {
-    title: "Sharpness against the last layers",
-    bound: "least",
-    unit: "ratio",
-  },
-  brightness_minimum: { title: "Mean brightness, not too dark", bound: "least", unit: "part" },
-  brightness_maximum: { title: "Mean brightness, not too bright", bound: "most", unit: "part" },
-  clipped_fraction: { title: "Overexposed part", bound: "most", unit: "part" },
-  shift: { title: "Shift of the block", bound: "most", unit: "pixels" },
-  shift_x: { title: "Shift to the right", bound: "within", unit: "pixels" },
-  shift_y: { title: "Shift downwards", bound: "within", unit: "pixels" },
-  glare: { title: "Glare", bound: "most", unit: "part" },
-  frost: { title: "Frost", bound: "most", unit: "part" },
-  debris: { title: "Debris", bound: "most", unit: "part" },
-  colour_cast: { title: "Colour cast of the light", bound: "most", unit: "part" },
-  brightness: { title: "Change of the light", bound: "within", unit: "part" },
-  evenness: { title: "Unevenness of the light", bound: "most", unit: "part" },
-  casting_red: { title: "Casting material, red", bound: "none", unit: "part" },
-  casting_green: { title: "Casting material, green", bound: "none", unit: "part" },
-  casting_blue: { title: "Casting material, blue", bound: "none", unit: "part" },
-  brightness_drift: { title: "Light since the first layer", bound: "within", unit: "part" },
-  colour_drift: { title: "Colour since the first layer", bound: "most", unit: "part" },
-  face_change: { title: "Change from the layer before", bound: "least", unit: "part" },
-  old_part: { title: "Part still showing the layer before", bound: "most", unit: "part" },
-  repeated_rows: { title: "Rows repeated from an earlier frame", bound: "most", unit: "part" },
-  dead_rows: { title: "Rows without a picture", bound: "most", unit: "part" },
-};
+const known = new Map<string, MetricWords>(
+  Object.entries({
+    sharpness_ratio: { title: "Sharpness", bound: "least", unit: "ratio" },
+    sharpness_along_axis: {
+      title: "Sharpness along the weaker axis",
+      bound: "least",
+      unit: "ratio",
+    },
+    fine_contrast: { title: "Contrast of fine detail", bound: "least", unit: "ratio" },
+    sharpness_to_record: {
+      title: "Sharpness against the last layers",
+      bound: "least",
+      unit: "ratio",
+    },
+    brightness_minimum: { title: "Mean brightness, not too dark", bound: "least", unit: "part" },
+    brightness_maximum: { title: "Mean brightness, not too bright", bound: "most", unit: "part" },
+    clipped_fraction: { title: "Overexposed part", bound: "most", unit: "part" },
+    shift: { title: "Shift of the block", bound: "most", unit: "pixels" },
+    shift_x: { title: "Shift to the right", bound: "within", unit: "pixels" },
+    shift_y: { title: "Shift downwards", bound: "within", unit: "pixels" },
+    glare: { title: "Glare", bound: "most", unit: "part" },
+    frost: { title: "Frost", bound: "most", unit: "part" },
+    debris: { title: "Debris", bound: "most", unit: "part" },
+    colour_cast: { title: "Colour cast of the light", bound: "most", unit: "part" },
+    brightness: { title: "Change of the light", bound: "within", unit: "part" },
+    evenness: { title: "Unevenness of the light", bound: "most", unit: "part" },
+    casting_red: { title: "Casting material, red", bound: "none", unit: "part" },
+    casting_green: { title: "Casting material, green", bound: "none", unit: "part" },
+    casting_blue: { title: "Casting material, blue", bound: "none", unit: "part" },
+    brightness_drift: { title: "Light since the first layer", bound: "within", unit: "part" },
+    colour_drift: { title: "Colour since the first layer", bound: "most", unit: "part" },
+    face_change: { title: "Change from the layer before", bound: "least", unit: "part" },
+    old_part: { title: "Part still showing the layer before", bound: "most", unit: "part" },
+    repeated_rows: { title: "Rows repeated from an earlier frame", bound: "most", unit: "part" },
+    dead_rows: { title: "Rows without a picture", bound: "most", unit: "part" },
+  }),
+);
 
 /** Of a metric that this page does not know: its name, and its numbers as they are. */
 export function metricWords(name: string): MetricWords {
   const plain = name.replaceAll("_", " ");
   const title = plain.charAt(0).toUpperCase() + plain.slice(1);
-  return known[name] ?? { title, bound: "unknown", unit: "ratio" };
+  return known.get(name) ?? { title, bound: "unknown", unit: "ratio" };
 }
 
 /** "98.7 %", "0.991", "1.52 px". */

@@ -5,20 +5,22 @@ export type VerdictMark = "good" | "flagged" | "rejected" | "lost";
 export interface VerdictWords {
   readonly title: string;
   readonly mark: VerdictMark;
+  /** The frame became the layer's image. */
+  readonly accepted: boolean;
 }
 
 export function verdictWords(verdict: string): VerdictWords {
   switch (verdict) {
     case "accepted":
-      return { title: "Accepted", mark: "good" };
+      return { title: "Accepted", mark: "good", accepted: true };
     case "accepted_with_flag":
-      return { title: "Accepted with a flag", mark: "flagged" };
+      return { title: "Accepted with a flag", mark: "flagged", accepted: true };
     case "rejected":
-      return { title: "Rejected", mark: "rejected" };
+      return { title: "Rejected", mark: "rejected", accepted: false };
     case "not_stored":
-      return { title: "Good, but not stored", mark: "lost" };
+      return { title: "Good, but not stored", mark: "lost", accepted: false };
     default:
-      return { title: verdict, mark: "lost" };
+      return { title: verdict, mark: "lost", accepted: false };
   }
 }
 

@@ -1,6 +1,16 @@
 import { describe, expect, it } from "vitest";
 
-import { fitted, held, isFitted, moved, seen, toPicture, toScreen, zoomed } from "./viewport";
+import {
+  fitted,
+  held,
+  isFitted,
+  moved,
+  seen,
+  tapped,
+  toPicture,
+  toScreen,
+  zoomed,
+} from "./viewport";
 
 const shape = { width: 10000, height: 5000, stretch: 1 };
 const frame = { width: 1000, height: 800 };
@@ -86,5 +96,21 @@ describe("moving", () => {
   it("leaves a side in the middle that is wholly in sight", () => {
     const view = moved(fitted(shape, frame), { x: 30, y: 30 }, shape, frame, 1);
     expect(view).toEqual(fitted(shape, frame));
+  });
+});
+
+describe("a double tap", () => {
+  const at = { x: 250, y: 400 };
+
+  it("shows the pixels of a large picture, and all of it again", () => {
+    const close = tapped(fitted(shape, frame), at, shape, frame, 2);
+    expect(close.scale).toBe(0.5);
+    expect(toPicture(at, close, shape, frame).x).toBeCloseTo(2500, 6);
+    expect(tapped(close, at, shape, frame, 2)).toEqual(fitted(shape, frame));
+  });
+
+  it("enlarges a picture of few pixels", () => {
+    const small = { width: 500, height: 400, stretch: 1 };
+    expect(tapped(fitted(small, frame), at, small, frame, 1).scale).toBe(6);
   });
 });

@@ -128,3 +128,16 @@ export function moved(
   };
   return held(next, shape, frame, pixelRatio);
 }
+
+/** Twice tapped: from a small picture to its own pixels, or three times as large; else back to all. */
+export function tapped(
+  view: Viewport,
+  at: Point,
+  shape: Shape,
+  frame: Frame,
+  pixelRatio: number,
+): Viewport {
+  if (!isFitted(view, shape, frame)) return fitted(shape, frame);
+  const factor = Math.max(1 / pixelRatio / view.scale, 3);
+  return zoomed(view, factor, at, shape, frame, pixelRatio);
+}
