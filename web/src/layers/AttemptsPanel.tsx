@@ -1,12 +1,13 @@
 import type { Attempt, LayerDetail } from "../api/types";
 import { bytes, fixed, micrometres, withUnit } from "../ui/numbers";
-import { timeText } from "./time_text";
 import { MetricTable } from "./MetricTable";
+import { depthText } from "./sample_place";
+import { timeText } from "./time_text";
 import { slugWords, verdictWords } from "./verdict_words";
 
 interface Props {
   layer: number;
-  depthUm: number;
+  thicknessUm: number;
   detail: LayerDetail | null;
   trouble: string;
   chosen: Attempt | null;
@@ -14,12 +15,12 @@ interface Props {
 }
 
 /** What is known of a layer, and of each attempt at it. */
-export function AttemptsPanel({ layer, depthUm, detail, trouble, chosen, onChoose }: Props) {
+export function AttemptsPanel({ layer, thicknessUm, detail, trouble, chosen, onChoose }: Props) {
   return (
     <section class="layer-facts" aria-label={`Layer ${layer}`}>
       <h1>Layer {fixed(layer)}</h1>
       <p class="muted">
-        {micrometres(depthUm, 1)} below the first face
+        {depthText(layer, thicknessUm)} below the first face
         {detail?.committed_at && <>, stored {timeText(detail.committed_at)}</>}
         {detail && detail.bytes > 0 && <> ({bytes(detail.bytes)})</>}
       </p>

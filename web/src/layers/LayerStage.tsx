@@ -1,15 +1,16 @@
 import { useSignal, type Signal } from "@preact/signals";
 import { useMemo, useRef } from "preact/hooks";
 
-import type { Attempt, LayerDetail, Sample } from "../api/types";
+import type { Attempt, LayerDetail, Sample, Sharpness } from "../api/types";
 import { Button } from "../ui/Button";
-import { micrometres } from "../ui/numbers";
+import { micrometres, significant } from "../ui/numbers";
 import { useSharpness } from "./layer_detail";
 import { PicturePane } from "./PicturePane";
 import { zoomBy, zoomStep, zoomToPixels } from "./picture_controls";
 import type { PictureScreen } from "./picture_screen";
 import { TiledLayer, WholePicture } from "./picture_source";
-import { placeDecimals, toSample, type PixelSize } from "./sample_place";
+import { depthText, placeDecimals, toSample, type PixelSize } from "./sample_place";
+import { tileAt } from "./sharpness_map";
 import { SharpnessTools } from "./SharpnessTools";
 import { slugWords, verdictWords } from "./verdict_words";
 import type { Point, Viewport } from "./viewport";
@@ -109,6 +110,12 @@ export function LayerStage(props: Props) {
             <p>This layer has no accepted image yet.</p>
           </div>
         )}
+        <CursorPlace
+          cursor={cursor}
+          pixel={pixel}
+          depth={depthText(layer, sample.spacing_um[2])}
+          map={map}
+        />
       </div>
       <div class="stage-tools">
         <div class="stage-zoom" role="group" aria-label="Zoom">
@@ -130,10 +137,8 @@ export function LayerStage(props: Props) {
             opacity={props.opacity.value}
             onOpacity={(opacity) => (props.opacity.value = opacity)}
             answer={sharpness}
-            cursor={cursor}
           />
         )}
-        <CursorPlace cursor={cursor} pixel={pixel} depthUm={(layer - 1) * sample.spacing_um[2]} />
       </div>
     </div>
   );
@@ -169,19 +174,27 @@ function ZoomButton({ of, label, factor, children }: ZoomButtonProps) {
 interface PlaceProps {
   cursor: Signal<Point | null>;
   pixel: PixelSize;
-  depthUm: number;
+  depth: string;
+  map: Sharpness | null;
 }
 
-/** Where in the sample the cursor is. */
-function CursorPlace({ cursor, pixel, depthUm }: PlaceProps) {
+/** Where in the sample the cursor is, and how sharp it is there. */
+function CursorPlace({ cursor, pixel, depth, map }: PlaceProps) {
   const place = cursor.value;
-  if (!place) return <span class="stage-place muted" />;
+  if (!place) return null;
   const um = toSample(place, pixel);
   const decimals = placeDecimals(pixel);
-  return (
-    <span class="stage-place">
-      <span>x {micrometres(um.x, decimals)}</span> <span>y {micrometres(um.y, decimals)}</span>{" "}
-      <span>z {micrometres(depthUm, 1)}</span>
-    </span>
-  );
+  const words = [
+    `x ${micrometres(um.x, decimals)}`,
+    `y ${micrometres(um.y, decimals)}`,
+    `z ${depth}`,
+  ];
+  if (map) words.push(sharpnessWords(map, place));
+  return <p class="stage-place">{words.join("  ")}</p>;
+}
+
+function sharpnessWords(map: Sharpness, place: Point): string {
+  const tile = tileAt(map, place);
+  const value = tile === null ? null : map.values[tile];
+  return value === null ? "too little detail" : `sharpness ${significant(value)}`;
 }

@@ -9,6 +9,7 @@ import { FilmStrip, stripPitch } from "./FilmStrip";
 import { useLayerDetail } from "./layer_detail";
 import { keepsKey, layerKey, type LayerKey } from "./layer_keys";
 import { layerHash, layerLink } from "./layer_link";
+import type { LayerFilter } from "./layer_sequence";
 import "./layers.css";
 import { LayerStage } from "./LayerStage";
 import {
@@ -78,6 +79,12 @@ function Layers() {
     if (count > 0) choose(sequence.value.at(Math.min(Math.max(index, 0), count - 1)));
   };
   const step = (by: number) => chooseAt(sequence.value.nearest(layer) + by);
+  const filterBy = (next: LayerFilter) => {
+    filter.value = next;
+    const { count, nearest, at } = sequence.value;
+    const shown = count > 0 ? at(nearest(layer)) : layer;
+    if (shown !== layer) choose(shown);
+  };
   const chooseAttempt = (attempt: Attempt) =>
     replaceHash(layerHash({ layer, attempt: attempt.attempt }, route.peek().query));
 
@@ -142,9 +149,10 @@ function Layers() {
       <div class="layer-strip">
         <StripTools
           filter={filter.value}
-          onFilter={(next) => (filter.value = next)}
+          onFilter={filterBy}
           judged={journal.value === "kept"}
           count={sequence.value.count}
+          committed={committed.value}
           highest={highest.value}
           following={link.layer === null}
           onFollow={(following) =>
@@ -167,7 +175,7 @@ function Layers() {
         {exists && (
           <AttemptsPanel
             layer={layer}
-            depthUm={(layer - 1) * known.spacing_um[2]}
+            thicknessUm={known.spacing_um[2]}
             detail={answer.value}
             trouble={answer.trouble}
             chosen={chosen}

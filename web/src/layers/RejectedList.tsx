@@ -55,7 +55,10 @@ export function RejectedList() {
               class="rejected-frame"
               href={layerHash({ layer: frame.layer, attempt: frame.attempt })}
             >
-              <RejectedPicture url={frame.image ? thumbnails.url(frame.image) : undefined} />
+              <RejectedPicture
+                kept={Boolean(frame.image)}
+                url={frame.image ? thumbnails.url(frame.image) : undefined}
+              />
               <span>
                 <strong>
                   Layer {fixed(frame.layer)}, attempt {frame.attempt}: {slugWords(frame.slug)}
@@ -74,8 +77,13 @@ export function RejectedList() {
   );
 }
 
-function RejectedPicture({ url }: { url: string | undefined }) {
-  return <span class="rejected-picture">{url && <img src={url} alt="" />}</span>;
+function RejectedPicture({ kept, url }: { kept: boolean; url: string | undefined }) {
+  return (
+    <span class="rejected-picture">
+      {url && <img src={url} alt="" />}
+      {!kept && <span class="film-note">not kept</span>}
+    </span>
+  );
 }
 
 /** Each frame once, the newest first. */

@@ -1,12 +1,9 @@
-import type { Signal } from "@preact/signals";
-
 import type { Sharpness } from "../api/types";
 import { significant } from "../ui/numbers";
 import { Switch } from "../ui/Switch";
 import { cssColour, scaleColour } from "./colour_scale";
 import type { Answer } from "./layer_detail";
-import { shownRange, tileAt } from "./sharpness_map";
-import type { Point } from "./viewport";
+import { shownRange } from "./sharpness_map";
 
 interface Props {
   shown: boolean;
@@ -14,7 +11,6 @@ interface Props {
   opacity: number;
   onOpacity: (opacity: number) => void;
   answer: Answer<Sharpness>;
-  cursor: Signal<Point | null>;
 }
 
 /** The switch of the sharpness map, and what its colours mean. */
@@ -37,7 +33,7 @@ export function SharpnessTools(props: Props) {
           />
         </label>
       )}
-      {props.shown && <Legend answer={props.answer} cursor={props.cursor} />}
+      {props.shown && <Legend answer={props.answer} />}
     </div>
   );
 }
@@ -46,7 +42,7 @@ const gradient = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1]
   .map((part) => cssColour(scaleColour(part)))
   .join(", ")})`;
 
-function Legend({ answer, cursor }: Pick<Props, "answer" | "cursor">) {
+function Legend({ answer }: { answer: Answer<Sharpness> }) {
   const map = answer.value;
   if (answer.trouble) return <span class="bad">{answer.trouble}</span>;
   if (!map) return <span class="muted">Measuring…</span>;
@@ -57,19 +53,6 @@ function Legend({ answer, cursor }: Pick<Props, "answer" | "cursor">) {
       <span>blurred {significant(range.low)}</span>
       <span class="legend-colours" style={{ background: gradient }} />
       <span>{significant(range.high)} sharp</span>
-      <CursorValue map={map} cursor={cursor} />
-    </span>
-  );
-}
-
-function CursorValue({ map, cursor }: { map: Sharpness; cursor: Signal<Point | null> }) {
-  const place = cursor.value;
-  const tile = place && tileAt(map, place);
-  if (tile === null) return null;
-  const value = map.values[tile];
-  return (
-    <span class="legend-value">
-      {value === null ? "here: too little detail" : `here: ${significant(value)}`}
     </span>
   );
 }

@@ -10,7 +10,10 @@ interface Props {
   onFilter: (filter: LayerFilter) => void;
   /** A sample without a journal has nothing to filter by. */
   judged: boolean;
+  /** Layers in the strip. */
   count: number;
+  /** Layers that have an image. */
+  committed: number;
   highest: number;
   following: boolean;
   onFollow: (following: boolean) => void;
@@ -61,8 +64,8 @@ export function StripTools(props: Props) {
   );
 }
 
-function countWords({ filter, count, highest }: Props): string {
-  const all = `${fixed(highest)} ${highest === 1 ? "layer" : "layers"}`;
+function countWords({ filter, count, committed }: Props): string {
+  const all = `${fixed(committed)} ${committed === 1 ? "layer" : "layers"}`;
   if (filter === "all") return all;
   const kind = filter === "rejected" ? "with rejected attempts" : "accepted with a flag";
   return `${fixed(count)} of ${all} ${kind}`;

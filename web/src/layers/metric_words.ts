@@ -78,13 +78,13 @@ function share(value: number | null): string {
 }
 
 const boundWords: Readonly<Record<Exclude<Bound, "none">, string>> = {
-  least: "at least ",
-  most: "at most ",
-  within: "within ±\u00a0",
+  least: "≥\u00a0",
+  most: "≤\u00a0",
+  within: "±\u00a0",
   unknown: "",
 };
 
-/** "at most 0.25 %"; a metric that is only noted has no limit. */
+/** "≤ 0.25 %"; a metric that is only noted has no limit. */
 export function limitText(limit: number | null, words: MetricWords): string {
   if (limit === null || words.bound === "none") return "none";
   return boundWords[words.bound] + valueText(limit, words);

@@ -1,6 +1,13 @@
 import { describe, expect, it } from "vitest";
 
-import { fromSample, placeDecimals, toSample, viewFromLink, viewToLink } from "./sample_place";
+import {
+  depthText,
+  fromSample,
+  placeDecimals,
+  toSample,
+  viewFromLink,
+  viewToLink,
+} from "./sample_place";
 
 const pixel = { x: 10, y: 5 };
 
@@ -17,6 +24,12 @@ describe("places of the sample", () => {
     expect(placeDecimals({ x: 0.32, y: 1 })).toBe(2);
     expect(placeDecimals({ x: 100, y: 100 })).toBe(0);
   });
+});
+
+it("tells the depth of a layer without decimals that mean nothing", () => {
+  expect(depthText(1, 20)).toBe("0\u00a0µm");
+  expect(depthText(81, 20)).toBe("1600\u00a0µm");
+  expect(depthText(4, 12.5)).toBe("37.50\u00a0µm");
 });
 
 describe("a link to a view", () => {

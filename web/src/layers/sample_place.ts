@@ -4,6 +4,7 @@
  * corner.
  */
 
+import { micrometres } from "../ui/numbers";
 import type { Point, Viewport } from "./viewport";
 
 export interface PixelSize {
@@ -23,6 +24,11 @@ export function fromSample(um: Point, pixel: PixelSize): Point {
 /** Decimals with which a place is told: no more than a tenth of a pixel means anything. */
 export function placeDecimals(pixel: PixelSize): number {
   return Math.min(Math.max(Math.ceil(-Math.log10(Math.min(pixel.x, pixel.y))) + 1, 0), 4);
+}
+
+/** How far a layer's face lies below the first one. */
+export function depthText(layer: number, thicknessUm: number): string {
+  return micrometres((layer - 1) * thicknessUm, Number.isInteger(thicknessUm) ? 0 : 2);
 }
 
 /** The view as parameters of a link: its middle in micrometres, and its scale. */

@@ -2,7 +2,11 @@
 export function timeText(iso: string, now = new Date()): string {
   const at = new Date(iso);
   if (Number.isNaN(at.getTime())) return iso;
-  const time = at.toLocaleTimeString(undefined, { hour: "2-digit", minute: "2-digit" });
+  const time = at.toLocaleTimeString(undefined, {
+    hour: "2-digit",
+    minute: "2-digit",
+    hourCycle: "h23",
+  });
   if (at.toDateString() === now.toDateString()) return `at ${time}`;
   const sameYear = at.getFullYear() === now.getFullYear();
   const day = at.toLocaleDateString(undefined, {
