@@ -18,7 +18,7 @@ interface Props {
 export function AttemptsPanel({ layer, thicknessUm, detail, trouble, chosen, onChoose }: Props) {
   return (
     <section class="layer-facts" aria-label={`Layer ${layer}`}>
-      <h1>Layer {fixed(layer)}</h1>
+      <h2 class="layer-number">Layer {fixed(layer)}</h2>
       <p class="muted">
         {depthText(layer, thicknessUm)} below the first face
         {detail?.committed_at && <>, stored {timeText(detail.committed_at)}</>}
@@ -70,14 +70,19 @@ function AttemptButton({ attempt, chosen, onChoose }: ButtonProps) {
       type="button"
       class="attempt"
       data-mark={mark}
+      data-attempt={attempt.attempt}
+      data-verdict={attempt.verdict}
       aria-pressed={chosen}
       onClick={() => onChoose(attempt)}
     >
-      <span>Attempt {attempt.attempt}</span>
-      <span class="attempt-verdict">
-        {title}
-        {mark !== "good" && attempt.slug && `: ${slugWords(attempt.slug)}`}
+      <span class="attempt-title">
+        <span>Attempt {attempt.attempt}</span>
+        <span>
+          {title}
+          {mark !== "good" && attempt.slug && `: ${slugWords(attempt.slug)}`}
+        </span>
       </span>
+      <span class="attempt-reason">{sentence(attempt.reason)}</span>
     </button>
   );
 }
@@ -91,9 +96,6 @@ function AttemptFacts({ attempt }: { attempt: Attempt }) {
   ].filter(Boolean);
   return (
     <>
-      <p class="attempt-reason" data-mark={verdictWords(attempt.verdict).mark}>
-        {sentence(attempt.reason)}
-      </p>
       <p class="muted">{facts.join(", ")}.</p>
       <MetricTable metrics={attempt.metrics} />
     </>

@@ -84,6 +84,7 @@ export function FilmStrip(props: Props) {
     <div
       ref={scroller}
       class="film"
+      data-role="strip"
       role="listbox"
       aria-label="Layers"
       aria-orientation="horizontal"
@@ -130,6 +131,8 @@ function FilmFrame(props: FrameProps) {
     <div
       id={itemId(layer)}
       class="film-frame"
+      data-layer={layer}
+      data-verdict={markVerdict(mark, there)}
       role="option"
       aria-selected={props.chosen}
       aria-setsize={props.count}
@@ -150,6 +153,13 @@ function FilmFrame(props: FrameProps) {
       </span>
     </div>
   );
+}
+
+/** The mark that weighs most; none of a layer that was never judged. */
+function markVerdict(mark: LayerMark | undefined, there: boolean): string | undefined {
+  if (mark && mark.rejected > 0) return "rejected";
+  if (mark?.flagged) return "flagged";
+  return there ? "accepted" : undefined;
 }
 
 function frameWords(layer: number, mark: LayerMark | undefined, there: boolean): string {

@@ -92,7 +92,8 @@ export function LayerStage(props: Props) {
             key="compared"
             {...shared}
             label={`Layer ${layer}, attempt ${other.attempt}, rejected`}
-            role="attempt"
+            role="attempt-image"
+            attempt={other.attempt}
             picture={compared}
             onScreen={keep("compared")}
           >
@@ -100,7 +101,12 @@ export function LayerStage(props: Props) {
           </PicturePane>
         )}
         {other && !compared && (
-          <div class="pane pane-empty">
+          <div
+            class="pane pane-empty"
+            data-role="attempt-image"
+            data-attempt={other.attempt}
+            data-state="none"
+          >
             <p class="pane-title pane-title-bad">{otherTitle(other)}</p>
             <p>The picture of this attempt was not kept.</p>
           </div>

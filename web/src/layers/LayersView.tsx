@@ -46,6 +46,7 @@ export function LayersView() {
 
   return (
     <main id="main" class="view layers" data-view="layers" tabIndex={-1}>
+      <h1 class="visually-hidden">Layers</h1>
       {known && highest.value > 0 ? <Layers /> : <NoLayers />}
     </main>
   );
@@ -55,7 +56,6 @@ function NoLayers() {
   const nothing = sample.value ? "No layer has been photographed yet." : "Looking for layers…";
   return (
     <div class="layers-none">
-      <h1>Layers</h1>
       <p>{sampleTrouble.value || nothing}</p>
     </div>
   );

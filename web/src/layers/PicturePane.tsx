@@ -12,8 +12,9 @@ import type { Point, Viewport } from "./viewport";
 interface Props {
   /** What the picture shows, for who cannot see it. */
   label: string;
-  role: "layer" | "attempt";
+  role: "layer" | "attempt-image";
   layer: number;
+  attempt?: number;
   picture: ShownPicture;
   pixel: PixelSize;
   viewport: Signal<Viewport | null>;
@@ -38,7 +39,11 @@ export function PicturePane(props: Props) {
 
   useEffect(() => {
     if (!canvas.current) return;
-    const made = new PictureScreen(canvas.current, props.viewport);
+    const made = new PictureScreen(
+      canvas.current,
+      props.viewport,
+      props.role === "layer" ? "sharp" : "shown",
+    );
     const release = controlPicture({
       canvas: canvas.current,
       screen: made,
@@ -65,6 +70,7 @@ export function PicturePane(props: Props) {
         aria-label={props.label}
         data-role={props.role}
         data-layer={props.layer}
+        data-attempt={props.attempt}
       />
       {screen && <Scale screen={screen} pixel={props.pixel} />}
       {screen && props.cross && <Cross screen={screen} cursor={props.cursor} />}

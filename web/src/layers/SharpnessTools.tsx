@@ -49,7 +49,7 @@ function Legend({ answer }: { answer: Answer<Sharpness> }) {
   const range = shownRange(map);
   if (!range) return <span class="muted">There is too little detail to measure.</span>;
   return (
-    <span class="legend" title={map.measure}>
+    <span class="legend" data-role="sharpness" title={map.measure}>
       <span>blurred {significant(range.low)}</span>
       <span class="legend-colours" style={{ background: gradient }} />
       <span>{significant(range.high)} sharp</span>

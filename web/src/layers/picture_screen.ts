@@ -51,6 +51,8 @@ export class PictureScreen {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly viewport: Signal<Viewport | null>,
+    /** What its data-state says when all that can be seen is there. */
+    private readonly complete: "sharp" | "shown",
   ) {
     this.observer = new ResizeObserver(([entry]) => this.resized(entry));
     try {
@@ -157,7 +159,7 @@ export class PictureScreen {
 
     const missing = needed.filter((address) => !this.loader.picture(address));
     const failure = missing.map((address) => this.loader.failure(address)).find(Boolean);
-    canvas.dataset.state = failure ? "failed" : missing.length > 0 ? "loading" : "sharp";
+    canvas.dataset.state = failure ? "failed" : missing.length > 0 ? "loading" : this.complete;
     canvas.style.touchAction = isFitted(now.view, shape, now.frame) ? "pan-y" : "none";
     this.trouble.value = failure?.message ?? "";
     this.shown.value = now;
