@@ -114,12 +114,8 @@ export class PictureScreen {
 
   private resized(entry: ResizeObserverEntry): void {
     const { width, height } = entry.contentRect;
-    const exact = entry.devicePixelContentBoxSize?.[0];
     this.frame = { width, height };
-    this.pixels = {
-      width: exact?.inlineSize ?? Math.round(width * devicePixelRatio),
-      height: exact?.blockSize ?? Math.round(height * devicePixelRatio),
-    };
+    this.pixels = pixelsOf(entry);
     cancelAnimationFrame(this.nextPaint);
     this.paint(); // at once: a canvas that was given another size is empty
   }
@@ -164,4 +160,16 @@ export class PictureScreen {
     this.trouble.value = failure?.message ?? "";
     this.shown.value = now;
   }
+}
+
+/** The canvas's size in pixels of the device, as exactly as the browser tells it. */
+function pixelsOf(entry: ResizeObserverEntry): { width: number; height: number } {
+  const width = entry.contentRect.width * devicePixelRatio;
+  const height = entry.contentRect.height * devicePixelRatio;
+  const exact = entry.devicePixelContentBoxSize?.[0];
+  // Where a browser plays another device, the exact size may be the real device's.
+  if (exact && Math.abs(exact.inlineSize - width) < 2 && Math.abs(exact.blockSize - height) < 2) {
+    return { width: exact.inlineSize, height: exact.blockSize };
+  }
+  return { width: Math.round(width), height: Math.round(height) };
 }
