@@ -39,13 +39,34 @@ struct AttemptRow {
 
 /// What the journal says of an attempt, without the telemetry.
 struct AttemptNote {
+  std::int64_t id = 0;  ///< grows from attempt to attempt of a journal
   std::int64_t layer = 0;
   int attempt = 0;
   std::string taken_at;
+  std::int64_t exposure_us = 0;
+  double gain = 0.0;
+  bridge::Micrometres column{};
   std::string verdict;  ///< as to_string(Verdict) names it
+  std::string slug;     ///< of the reason: one word for programs
   std::string reason;
   std::string file;  ///< relative to the sample folder; empty if none was kept
   std::vector<Metric> metrics;
+};
+
+/// Attempts column by column, as charts want them: entry i of each belongs to one attempt.
+struct AttemptHistory {
+  struct Column {
+    std::string name;
+    std::vector<std::optional<double>> value;  ///< none where the attempt has no such metric
+    std::vector<std::optional<double>> limit;
+  };
+  std::vector<std::int64_t> id;
+  std::vector<std::int64_t> layer;
+  std::vector<int> attempt;
+  std::vector<std::string> verdict;
+  std::vector<double> column_um;
+  std::vector<std::string> taken_at;
+  std::vector<Column> metrics;
 };
 
 /// One search for the focus.

@@ -11,13 +11,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "acquisition/http/http_server.hpp"
+#include "acquisition/http/listen_address.hpp"
 #include "acquisition/job/recovery.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/sample_fit.hpp"
 #include "acquisition/records/sample_lock.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "acquisition/service/credentials.hpp"
-#include "acquisition/service/http_server.hpp"
 #include "acquisition/service/notifications/channels.hpp"
 
 namespace biotomy::acquisition {
@@ -219,7 +220,7 @@ void check_address(const ServiceConfiguration& service, RigFindings& findings) {
   if (const auto complaint = listen_complaint(service.host, service.port)) {
     findings.wrong(kPage, *complaint);
   } else {
-    findings.good(kPage, "http://" + service.host + ":" + std::to_string(service.port));
+    findings.good(kPage, http_url(service.host, service.port));
   }
 }
 

@@ -41,6 +41,7 @@ export interface Alarm {
   since: string; // ISO 8601, UTC
   state: JobState; // in which it came; "faulted": the latch of the start
   advice?: string;
+  kind?: string; // what it is about; "start_latch": nothing happened, the program has just started
 }
 
 export interface StageStatus {
@@ -102,7 +103,7 @@ export interface Status {
     found: boolean;
     why_not: string;
     actuator: string;
-    position: number;
+    position: string; // with its unit
     plane_um: number;
     frames: number;
   } | null;
@@ -142,13 +143,15 @@ export interface Attempt {
 
 export interface LayerDetail {
   layer: number;
+  present: boolean; // stored; else only its attempts are known, and file, bytes, sha256 are null
   committed_at: string | null;
   flagged: boolean;
   file: string;
   bytes: number;
   sha256: string;
-  width: number;
+  width: number; // pixels of the image, as the height
   height: number;
+  image: string | null; // where it is to be had
   attempts: Attempt[];
 }
 

@@ -88,7 +88,9 @@ export const wordsOf = (state: JobState): Words =>
  * True for the alarm that the program starts with: nothing went wrong, but nothing moves before
  * somebody has looked.
  */
-export const isStartLatch = (status: Status): boolean => status.alarm?.state === "faulted";
+export function isStartLatch({ alarm }: Status): boolean {
+  return alarm?.kind ? alarm.kind === "start_latch" : alarm?.state === "faulted";
+}
 
 /** The whole of it in a sentence or two. */
 export function stateSentence(status: Status): string {
@@ -100,4 +102,10 @@ export function stateSentence(status: Status): string {
     return `${sentence} It pauses when this step is done.`;
   }
   return sentence;
+}
+
+/** An alarm comes before what the job does; the latch of the start is none. */
+export function moodOf(status: Status): Mood {
+  if (isStartLatch(status)) return "waiting";
+  return status.alarm ? "alarm" : wordsOf(status.state).mood;
 }

@@ -1,0 +1,210 @@
+#include "acquisition/viewer/sample_api.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/task_arena.h>
+
+#include "acquisition/log.hpp"
+#include "acquisition/records/journal_error.hpp"
+#include "acquisition/viewer/layer_images.hpp"
+#include "acquisition/viewer/layer_records.hpp"
+#include "acquisition/viewer/live_sample.hpp"
+#include "acquisition/viewer/refusal.hpp"
+#include "acquisition/viewer/request_text.hpp"
+#include "acquisition/viewer/sample_json.hpp"
+#include "acquisition/viewer/section_task.hpp"
+#include "acquisition/viewer/series_pictures.hpp"
+#include "acquisition/viewer/volume_files.hpp"
+#include "reconstruct/errors.hpp"
+#include "reconstruct/interruption.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr const char* kApi = "/api/v1/";
+constexpr std::int64_t kLargestLayer = 999999;
+constexpr std::int64_t kLargestTile = 1'000'000;
+
+constexpr std::string_view kVolume = "/volume.ome.zarr/";
+
+/// The words of a path below kApi, or none of another one.
+std::vector<std::string> words_of(const std::string& path) {
+  std::vector<std::string> words;
+  if (!path.starts_with(kApi)) return words;
+  for (std::size_t begin = std::string_view(kApi).size(); begin <= path.size();) {
+    const std::size_t slash = std::min(path.find('/', begin), path.size());
+    words.push_back(path.substr(begin, slash - begin));
+    begin = slash + 1;
+  }
+  return words;
+}
+
+[[noreturn]] void refuse_path(const std::string& path) {
+  throw Refusal(404, "there is no " + path);
+}
+
+/// Threads that ask for pictures: the server's and the exports'.
+constexpr unsigned kAskingThreads = 3;
+
+int threads_of(const ViewerSettings& settings) {
+  if (settings.threads > 0) return settings.threads;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency() / 2));
+}
+
+}  // namespace
+
+struct SampleApi::State {
+  ViewerSettings settings;
+  mutable LiveSample live;
+  mutable tbb::task_arena arena;
+  SeriesPictures series;
+  LayerRecords records;
+  mutable LayerImages images;
+  VolumeFiles volume;
+
+  State(std::filesystem::path sample, ViewerSettings chosen)
+      : settings(std::move(chosen)),
+        live(std::move(sample), settings.cache_bytes),
+        arena(threads_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
+              tbb::task_arena::priority::low),
+        series(live),
+        records(live, settings.journal),
+        images(live, records, arena, settings.decoded_bytes),
+        volume(live.folder() / "volume.ome.zarr") {}
+
+  ApiResponse sample() const {
+    const auto view = live.look();
+    return {.status = 200, .body = sample_json(*view, records.committed())};
+  }
+
+  /// `words` are those after "layers".
+  ApiResponse layers(const std::vector<std::string>& words, const ApiRequest& request) const {
+    if (words.empty()) return records.list(request);
+    const auto layer = whole_number(words[0], 1, kLargestLayer);
+    if (!layer) throw Refusal(404, "'" + words[0] + "' is no layer: they are numbered from 1");
+    if (words.size() == 1) return records.layer(*layer);
+    if (words.size() == 2 && words[1] == "image") return images.image(*layer, request);
+    if (words.size() == 2 && words[1] == "sharpness") return images.sharpness(*layer, request);
+    if (words.size() == 5 && words[1] == "tiles") {
+      const auto number = [&](std::size_t word) {
+        const auto value = whole_number(words[word], 0, kLargestTile);
+        if (!value) refuse_path(request.path);
+        return static_cast<int>(*value);
+      };
+      return images.tile(*layer, number(2), number(3), number(4), request);
+    }
+    refuse_path(request.path);
+  }
+
+  ApiResponse route(const ApiRequest& request) const {
+    if (!std::filesystem::exists(live.folder() / "sample.toml")) {
+      throw Refusal(404, "there is no sample yet at " + live.folder().string());
+    }
+    if (request.path.starts_with(kVolume)) {
+      return volume.answer(request.path.substr(kVolume.size()), request);
+    }
+    const std::vector<std::string> words = words_of(request.path);
+    const std::vector<std::string> rest(words.empty() ? words.begin() : words.begin() + 1,
+                                        words.end());
+    const std::string& first = words.empty() ? request.path : words[0];
+    if (first == "layers") return layers(rest, request);
+    if (first == "rejected" && rest.empty()) return records.rejected(request);
+    if (first == "rejected" && rest.size() == 1) return records.rejected_picture(rest[0], request);
+    if (first == "section" && rest.empty()) {
+      return picture_of(section_task(live, request.query), request, arena);
+    }
+    if (first == "section" && rest == std::vector<std::string>{"outline"}) {
+      return outline_of(section_task(live, request.query));
+    }
+    if (first == "series" && rest == std::vector<std::string>{"frames"}) {
+      return series.frames(request);
+    }
+    if (first == "series" && rest == std::vector<std::string>{"frame"}) {
+      return picture_of(series.frame_task(request.query), request, arena);
+    }
+    if (first == "sample" && rest.empty()) return sample();
+    if (first == "history" && rest.empty()) return records.history(request);
+    refuse_path(request.path);
+  }
+};
+
+SampleApi::SampleApi(std::filesystem::path sample, ViewerSettings settings)
+    : state_(std::make_unique<State>(std::move(sample), std::move(settings))) {}
+
+SampleApi::~SampleApi() = default;
+
+bool SampleApi::answers(const ApiRequest& request) const {
+  static constexpr std::array<std::string_view, 6> kFirst = {"sample",  "layers",  "rejected",
+                                                             "history", "section", "series"};
+  if (request.path.starts_with(kVolume)) return true;
+  const std::vector<std::string> words = words_of(request.path);
+  return !words.empty() && std::find(kFirst.begin(), kFirst.end(), words[0]) != kFirst.end();
+}
+
+Lane SampleApi::lane(const ApiRequest& request) {
+  const std::vector<std::string> words = words_of(request.path);
+  if (words.empty()) return Lane::files;
+  const bool draws =
+      (words[0] == "section" && words.size() == 1) || (words[0] == "layers" && words.size() > 2);
+  if (draws) return Lane::pictures;
+  return words[0] == "rejected" && words.size() > 1 ? Lane::files : Lane::quick;
+}
+
+bool SampleApi::is_command(const ApiRequest& request) {
+  return request.method != "GET";
+}
+
+ApiResponse SampleApi::answer(const ApiRequest& request) const {
+  try {
+    if (request.method != "GET") {
+      ApiResponse response =
+          error_response(405, request.path + " takes GET, not " + request.method);
+      response.headers["Allow"] = "GET";
+      return response;
+    }
+    return state_->route(request);
+  } catch (const Refusal& refusal) {
+    return error_response(refusal.status(), refusal.what());
+  } catch (const reconstruct::InvalidRequest& error) {
+    return error_response(400, error.what());
+  } catch (const reconstruct::Interrupted& error) {
+    return error_response(503, error.what());
+  } catch (const reconstruct::SampleError& error) {
+    return error_response(422, error.what());
+  } catch (const JournalError& error) {
+    return error_response(503, error.what());
+  } catch (const std::exception& error) {
+    log_error("viewer", request.path + ": " + error.what());
+    return error_response(500, error.what());
+  }
+}
+
+std::uint64_t SampleApi::generation() const {
+  return state_->live.generation();
+}
+
+std::string SampleApi::sample_event() const {
+  nlohmann::ordered_json event = {{"committed", 0}, {"layers_present", 0}};
+  try {
+    const auto view = state_->live.look();
+    event = {{"committed", state_->records.committed()},
+             {"layers_present", view->sample.tail.layers_present()}};
+  } catch (const std::exception&) {
+    // There is no sample yet, or none that can be read: whoever asks for it is told.
+  }
+  event["generation"] = state_->live.generation();
+  return event.dump();
+}
+
+void SampleApi::on_export(std::function<void(std::string json)> listener) {
+  (void)listener;
+}
+
+}  // namespace biotomy::acquisition
