@@ -26,6 +26,7 @@ import {
 import { shiftBy, zoomBy, zoomStep, zoomToPixels } from "./picture_controls";
 import type { PictureScreen } from "./picture_screen";
 import { RejectedList } from "./RejectedList";
+import type { MapKind } from "./sharpness_overlay";
 import { StripTools } from "./StripTools";
 import { verdictWords } from "./verdict_words";
 import { useViewLink } from "./view_link";
@@ -35,6 +36,7 @@ import { itemsOfPage } from "./virtual_list";
 // They stay as they are while another view is looked at.
 const viewport = signal<Viewport | null>(null);
 const mapShown = signal(false);
+const mapKind = signal<MapKind>("own");
 const mapOpacity = signal(0.6);
 
 /** The layers as a film, one of them large, and what was found out about it. */
@@ -135,6 +137,7 @@ function Layers() {
           chosen={chosen}
           viewport={viewport}
           map={mapShown}
+          mapKind={mapKind}
           opacity={mapOpacity}
           screen={screen}
           onTurn={step}
