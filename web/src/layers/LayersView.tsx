@@ -1,6 +1,7 @@
 import { signal, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 
+import { sampleProgress } from "../api/live";
 import type { Attempt, LayerDetail } from "../api/types";
 import { goTo, replaceHash, route } from "../shell/route";
 import { fixed } from "../ui/numbers";
@@ -13,9 +14,11 @@ import type { LayerFilter } from "./layer_sequence";
 import "./layers.css";
 import { LayerStage } from "./LayerStage";
 import {
+  begun,
   committed,
   filter,
   highest,
+  historyTrouble,
   judged,
   marks,
   sample,
@@ -55,10 +58,12 @@ export function LayersView() {
 }
 
 function NoLayers() {
-  const nothing = sample.value ? "No layer has been photographed yet." : "Looking for layers…";
+  const knows = sampleProgress.value !== null;
+  const waits =
+    knows && !begun.value ? "No layer has been photographed yet." : "Looking for layers…";
   return (
     <div class="layers-none">
-      <p>{sampleTrouble.value || nothing}</p>
+      <p>{begun.value && sampleTrouble.value ? sampleTrouble.value : waits}</p>
     </div>
   );
 }
@@ -150,6 +155,9 @@ function Layers() {
         </div>
       )}
       <div class="layer-strip">
+        {historyTrouble.value && (
+          <p class="notice notice-bad">What was judged is not known: {historyTrouble.value}</p>
+        )}
         <StripTools
           filter={filter.value}
           onFilter={filterBy}
