@@ -19,7 +19,10 @@ export function crossings(
     leave = Math.min(leave, Math.max(a, b));
   }
   if (enter > leave) return null;
-  return [intoBox(along(start, enter, direction), far), intoBox(along(start, leave, direction), far)];
+  return [
+    intoBox(along(start, enter, direction), far),
+    intoBox(along(start, leave, direction), far),
+  ];
 }
 
 /** The nearest point of the box: what lies in it stays. */

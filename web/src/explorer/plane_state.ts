@@ -17,8 +17,7 @@ export type ThreePoints = readonly [Vector3, Vector3, Vector3];
 
 /** A plane as `biotomy section` takes it. Points are micrometres. */
 export type PlaneDefinition =
-  | { kind: "points"; points: ThreePoints }
-  | { kind: "normal"; normal: Vector3; through: Vector3 };
+  { kind: "points"; points: ThreePoints } | { kind: "normal"; normal: Vector3; through: Vector3 };
 
 /** All that the controls show of one plane. Whichever of them moves it, the others follow. */
 export interface PlacedPlane {

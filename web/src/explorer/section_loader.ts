@@ -1,15 +1,22 @@
 import { isAbort } from "../api/client";
 import type { SectionPicture } from "./section_record";
 
+export interface PictureRequest {
+  address: string;
+  of: string; // the section as it was chosen, of which this is a picture
+  sharp: boolean;
+  whole: boolean; // else of a part, for a close-up
+}
+
 /** What is wished for: a quick picture at once, and a sharp one when the hand rests. */
 export interface Wish {
-  preview: string | null; // addresses; no preview: the picture there is does until the sharp one
-  sharp: string;
+  preview: PictureRequest | null; // none: the picture there is does until the sharp one comes
+  sharp: PictureRequest;
 }
 
 export interface SectionLoaderOptions {
-  fetch: (address: string, sharp: boolean, signal: AbortSignal) => Promise<SectionPicture>;
-  deliver: (picture: SectionPicture) => void;
+  fetch: (asked: PictureRequest, signal: AbortSignal) => Promise<SectionPicture>;
+  deliver: (picture: SectionPicture, asked: PictureRequest) => void;
   fail: (error: unknown) => void;
   /** Seconds to wait before asking again; null for an error that asking again does not mend. */
   retryAfter: (error: unknown) => number | null;
@@ -22,7 +29,7 @@ export const betweenStarts_ms = 50;
 export const patience_ms = 400;
 
 interface Flight {
-  sharp: boolean;
+  asked: PictureRequest;
   since: number;
   abort: AbortController;
 }
@@ -33,8 +40,8 @@ interface Flight {
  */
 export class SectionLoader {
   private flight: Flight | null = null;
-  private preview: string | null = null;
-  private sharp: string | null = null;
+  private preview: PictureRequest | null = null;
+  private sharp: PictureRequest | null = null;
   private rested = false;
   private lastStart = -Infinity;
   private restTimer: ReturnType<typeof setTimeout> | undefined;
@@ -51,7 +58,7 @@ export class SectionLoader {
       this.rested = true;
       this.next();
     }, rest_ms);
-    if (this.flight && (this.flight.sharp || this.tookTooLong(this.flight))) {
+    if (this.flight && (this.flight.asked.sharp || this.tookTooLong(this.flight))) {
       this.flight.abort.abort();
       this.flight = null;
     }
@@ -73,37 +80,40 @@ export class SectionLoader {
 
   private next(): void {
     if (this.flight) return;
-    const sharp = this.preview === null;
-    const address = this.preview ?? (this.rested ? this.sharp : null);
-    if (address === null) return;
+    const asked = this.preview ?? (this.rested ? this.sharp : null);
+    if (asked === null) return;
     clearTimeout(this.startTimer);
     const wait = this.lastStart + betweenStarts_ms - performance.now();
     if (wait > 0) {
       this.startTimer = setTimeout(() => this.next(), wait);
       return;
     }
-    if (sharp) this.sharp = null;
+    if (asked.sharp) this.sharp = null;
     else this.preview = null;
     this.lastStart = performance.now();
-    void this.fly(address, sharp);
+    void this.fly(asked);
   }
 
-  private async fly(address: string, sharp: boolean): Promise<void> {
-    const flight = { sharp, since: performance.now(), abort: new AbortController() };
+  private async fly(asked: PictureRequest): Promise<void> {
+    const flight = { asked, since: performance.now(), abort: new AbortController() };
     this.flight = flight;
     try {
-      const picture = await this.options.fetch(address, sharp, flight.abort.signal);
-      if (this.flight !== flight) return;
-      this.options.deliver(picture);
+      const picture = await this.options.fetch(asked, flight.abort.signal);
+      if (this.flight !== flight) {
+        picture.image.close();
+        return;
+      }
+      this.options.deliver(picture, asked);
     } catch (error) {
       if (this.flight !== flight || isAbort(error)) return;
       const seconds = this.options.retryAfter(error);
       if (seconds === null) {
         this.options.fail(error);
-        if (!sharp) this.sharp = null; // the same wish would fail the same way
+        // Of the same wish the sharp picture would fail the same way.
+        if (!asked.sharp && this.preview === null) this.sharp = null;
       } else {
-        if (sharp) this.sharp ??= address;
-        else this.preview ??= address;
+        if (asked.sharp) this.sharp ??= asked;
+        else this.preview ??= asked;
         this.lastStart = performance.now() + seconds * 1000;
       }
     }

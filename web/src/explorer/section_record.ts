@@ -33,4 +33,5 @@ export interface SectionPicture {
   image: ImageBitmap;
   record: SectionRecord;
   sharp: boolean; // at the screen's resolution and without loss; else quickly made
+  whole: boolean; // else the part that is seen in a close-up
 }

@@ -64,13 +64,10 @@ export function zoomedAt(
   finest: number,
 ): Closeup | null {
   const coarsest = fittingPixel(window.frame, window.width, window.height);
-  const pixel = Math.max(finest, window.pixel / factor);
+  const pixel = readablePixel(Math.max(finest, window.pixel / factor));
   if (pixel >= coarsest) return null;
   const [a, b] = placeAt(window, x, y);
-  const middle: InPlane = [
-    a - (x - window.width / 2) * pixel,
-    b - (y - window.height / 2) * pixel,
-  ];
+  const middle: InPlane = [a - (x - window.width / 2) * pixel, b - (y - window.height / 2) * pixel];
   return { middle: inSample(window.frame, withinFrame(window.frame, middle)), pixel };
 }
 

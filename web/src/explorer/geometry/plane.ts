@@ -91,4 +91,3 @@ export function widestTriangle(polygon: readonly Vector3[]): [Vector3, Vector3, 
   });
   return widest;
 }
-
