@@ -2,6 +2,7 @@ import { effect, useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 
 import { fixed } from "../ui/numbers";
+import { arrows, moveByArrow } from "./arrow_keys";
 import { bestRenderer } from "./best_renderer";
 import { surfacePoint } from "./box_surface";
 import { axisLabels } from "./cuboid_scene";
@@ -316,13 +317,6 @@ function useCuboidPointer(
   }, []);
 }
 
-const arrows: Record<string, [number, number]> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-
 function pressed(
   event: KeyboardEvent,
   state: ExplorerState,
@@ -346,13 +340,6 @@ function pressed(
   else if (event.key === "PageUp") state.nudge(-10);
   else return;
   event.preventDefault();
-}
-
-/** Up and down by a step along its normal, left and right by a degree of tilt. */
-export function moveByArrow(state: ExplorerState, [right, down]: [number, number]): void {
-  if (down !== 0) state.nudge(down);
-  const tilt = state.shownPlane.value?.angles.tilt ?? 0;
-  if (right !== 0) state.turn({ tilt: Math.min(90, Math.max(0, tilt + right)) });
 }
 
 function movePointBy(

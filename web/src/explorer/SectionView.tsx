@@ -3,7 +3,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
-import { moveByArrow } from "./CuboidView";
+import { arrows, moveByArrow } from "./arrow_keys";
 import type { ExplorerState } from "./explorer_state";
 import { Fingers } from "./fingers";
 import { cornersOf, inPlane, turnedBasis } from "./geometry/plane_rectangle";
@@ -398,13 +398,6 @@ export function zoomAbout(state: ExplorerState, factor: number, place?: Place): 
   const middle: Place = place ?? [window.width / 2, window.height / 2];
   state.closeup.value = zoomedAt(window, factor, middle, state.finestPixel.value);
 }
-
-const arrows: Record<string, Place> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
 
 function pressed(event: KeyboardEvent, state: ExplorerState, tools: SectionTools): void {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
