@@ -131,7 +131,7 @@ function drawOnDemand(
         projection: projection.value,
         far: state.far.value,
         depthPresent: depthOfLayer(cuboid, Math.max(1, layers)),
-        picture: state.frame.value?.picture ?? state.overview.value,
+        picture: state.shownPicture.value,
         polygon: state.shownPlane.value?.polygon ?? [],
         colours: coloursOf(canvas),
       },
@@ -140,7 +140,7 @@ function drawOnDemand(
   };
   const stop = effect(() => {
     void [renderer.value, projection.value, size.value, scheme.value];
-    void [state.shownPlane.value, state.overview.value, state.frame.value];
+    void [state.shownPlane.value, state.shownPicture.value];
     void [state.cuboid.value, state.layersPresent.value];
     if (frame === 0) frame = requestAnimationFrame(draw);
   });
@@ -181,7 +181,6 @@ function Overlay({ state, projection, handles, held }: OverlayProps) {
           .join(","),
       )
       .join(" ");
-  const overview = state.overview.value;
   const rectangle = state.frame.value ? null : state.rectangle.value;
   const layers = state.layersPresent.value;
   const depth = depthOfLayer(cuboid, Math.max(1, layers));
@@ -210,7 +209,7 @@ function Overlay({ state, projection, handles, held }: OverlayProps) {
         </text>
       ))}
       {placed && <polygon class="section-outline" points={path(placed.polygon)} />}
-      {rectangle && overview && state.choices.value.theta.kind !== "bounding" && (
+      {rectangle && state.choices.value.theta.kind !== "bounding" && (
         <polygon class="theta-outline" points={path(cornersOf(rectangle))} />
       )}
       {handles.value.map(([x, y], i) => (
