@@ -29,7 +29,7 @@ const reach = { mouse: 16, touch: 28 }; // how near to a point a press takes hol
 const labelRoom = 38; // beside the middle of a label, CSS pixels
 
 const help =
-  "The block in 3D. Arrow up and down move the plane by a step, page up and page down by ten, " +
+  "Arrow up and down move the plane by a step, page up and page down by ten, " +
   "arrow left and right tilt it. With Shift, arrow keys turn the view; plus and minus zoom, 0 " +
   "starts anew. Keys 1, 2 and 3 choose a point of the plane, which the arrow keys then move; " +
   "Escape lets it go.";
@@ -88,10 +88,14 @@ export function CuboidView({ state }: Props) {
         )}
         tabIndex={0}
         role="application"
-        aria-label={help}
+        aria-label="Block"
+        aria-describedby="block-keys"
         onKeyDown={(event) => pressed(event, state, projection.value, held)}
         onBlur={() => (held.value = null)}
       />
+      <p id="block-keys" hidden>
+        {help}
+      </p>
       {size.value.width > 0 && (
         <Overlay state={state} projection={projection} handles={handles} held={held} />
       )}

@@ -26,7 +26,7 @@ import { customBetween } from "./theta_frame";
 import { useSize } from "./use_size";
 
 const help =
-  "The section. Arrow up and down move the plane by a step, page up and page down by ten. Plus and " +
+  "Arrow up and down move the plane by a step, page up and page down by ten. Plus and " +
   "minus zoom, 0 shows all of it; in a close-up, arrow keys move what is seen.";
 const reach = 20; // CSS pixels, how near to a corner a press takes hold of it
 const leastDrag = 4;
@@ -105,10 +105,14 @@ export function SectionView({ state, tools, children }: Props) {
         data-state="preview"
         tabIndex={0}
         role="application"
-        aria-label={help}
+        aria-label="Picture of the section"
+        aria-describedby="section-keys"
         onKeyDown={(event) => pressed(event, state, tools)}
         hidden={!placement.value}
       />
+      <p id="section-keys" hidden>
+        {help}
+      </p>
       <SectionOverlay state={state} tools={tools} draft={draft} />
       {state.failure.value && (
         <p class="section-failure notice notice-warn">{state.failure.value}</p>

@@ -229,7 +229,7 @@ export class SeriesPlayer {
 
   private async sharpen(): Promise<void> {
     const index = this.index.value;
-    if (this.playing.value || !this.frames.value[index]) return;
+    if (this.playing.value || !this.frames.value[index]?.cuts) return;
     try {
       const picture = await this.picture(index, true, this.abort.signal);
       if (this.playing.value || index !== this.index.value || !this.frames.value.length) {
