@@ -72,7 +72,7 @@ export function LayerChart({ name, title, about, limit, text, tick }: Props) {
         `last ${text(lastOf(value))}, ${rejected} rejected`;
 
   return (
-    <figure class="chart" data-chart={name} data-points={value.length} data-rejected={rejected}>
+    <figure class="chart" data-chart={name} data-count={value.length} data-rejected={rejected}>
       <figcaption class="chart-head">
         <h3>{title}</h3>
         <span class="muted chart-about">{about}</span>
@@ -82,9 +82,11 @@ export function LayerChart({ name, title, about, limit, text, tick }: Props) {
           </Button>
         )}
         <span class="chart-reading">
-          {row === null
-            ? `last ${text(lastOf(value))}`
-            : readingOf(row, value[row], limits[row], text)}
+          {value.length === 0
+            ? "nothing yet"
+            : row === null
+              ? `last ${text(lastOf(value))}`
+              : readingOf(row, value[row], limits[row], text)}
         </span>
       </figcaption>
       <div ref={box} class="chart-box" role="img" aria-label={label} />
@@ -160,7 +162,9 @@ function optionsFor(
       {
         ...axis,
         size: 56,
-        values: (_made, ticks, _axis, _space, step) => ticks.map((value) => tick(value, step)),
+        // An axis without anything on it says nothing.
+        values: (made, ticks, _axis, _space, step) =>
+          made.data[0].length === 0 ? [] : ticks.map((value) => tick(value, step)),
       },
     ],
     series: [

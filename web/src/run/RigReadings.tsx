@@ -50,9 +50,9 @@ export function RigReadings({ status }: { status: Status }) {
             low="too little"
             high="too much"
           />
-          <Position name="Feed (block)" value={stage.positions_um.feed} />
-          <Position name="Traverse (wheel)" value={stage.positions_um.traverse} />
-          <Position name="Column (focus)" value={stage.positions_um.column} />
+          <Position name="Feed (wheel)" value={stage.positions_um.feed} />
+          <Position name="Traverse (0 is under the camera)" value={stage.positions_um.traverse} />
+          <Position name="Column (camera)" value={stage.positions_um.column} />
           <Position name="Ground to" value={stage.positions_um.ground_to} />
         </dl>
       ) : (

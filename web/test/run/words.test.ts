@@ -34,7 +34,8 @@ describe("clockWords", () => {
   it("names the day where it is not today", () => {
     expect(clockWords(now + 60_000, now, "en-GB")).toBe("22:31");
     expect(clockWords(now + 2 * hour * 1000, now, "en-GB")).toBe("tomorrow, 00:30");
-    expect(clockWords(now + 48 * hour * 1000, now, "en-GB")).toBe("Fri 3 May, 22:30");
+    // The comma is up to the locale’s data.
+    expect(clockWords(now + 48 * hour * 1000, now, "en-GB")).toMatch(/^Fri,? 3 May, 22:30$/);
   });
 });
 
