@@ -15,7 +15,7 @@ export function PlayerBar({ player }: Props) {
   const turns = player.choice.value.kind === "rotate";
   const words = current ? `${fixed(current.value, 1)}${turns ? "°" : "\u00a0µm"}` : "";
   return (
-    <div class="player-bar" role="group" aria-label="Series">
+    <div class="player-bar" role="group" aria-label="Player">
       {player.playing.value ? (
         <Button onClick={() => player.pause()}>Pause</Button>
       ) : (
