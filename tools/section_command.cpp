@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/section/parameter_text.hpp"
@@ -22,7 +23,6 @@
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"
-#include "tools/opened_sample.hpp"
 #include "tools/picture_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
@@ -31,6 +31,7 @@ namespace biotomy::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using reconstruct::OpenedSample;
 using reconstruct::Section;
 using reconstruct::Volume;
 using reconstruct::VolumeBricks;
@@ -116,6 +117,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
   Durations durations;
   auto start = Clock::now();
   const OpenedSample sample(arguments.sample);
+  sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   const reconstruct::Plane plane =
       reconstruct::parse_plane("--", arguments.plane, chosen.unit, cuboid.spacing);

@@ -46,29 +46,15 @@ void add_section_options(CLI::App& command, SectionOptions& options) {
 }
 
 SectionChoices choices(const SectionOptions& options) {
-  SectionChoices chosen{reconstruct::parse_unit("--unit", options.unit),
-                        reconstruct::basis_kind(options.basis),
-                        {},
-                        cache_bytes(options.cache_mb),
-                        {}};
-  chosen.style.interpolation = reconstruct::interpolation(options.interpolation);
-  chosen.style.background = reconstruct::parse_colour("--background", options.background);
+  SectionChoices chosen{
+      reconstruct::section_choices("--", options), cache_bytes(options.cache_mb), {}};
   chosen.damage = {options.tolerate_missing, chosen.style.background};
   return chosen;
 }
 
 reconstruct::SectionStyle style_for(const SectionChoices& choices, const SectionOptions& options,
                                     const reconstruct::Vector3& spacing) {
-  reconstruct::SectionStyle style = choices.style;
-  style.theta = reconstruct::parse_theta("--theta", options.theta, choices.unit, spacing);
-  if (!options.pixel.empty()) {
-    const double length = reconstruct::parse_number("--pixel", options.pixel);
-    if (length <= 0.0) {
-      throw reconstruct::InvalidRequest("--pixel '" + options.pixel + "': give a size above 0");
-    }
-    style.pixel = reconstruct::length_in_micrometres(length, choices.unit, spacing);
-  }
-  return style;
+  return reconstruct::section_style("--", choices, options, spacing);
 }
 
 void warn_of(const reconstruct::Damage& damage) {

@@ -4,10 +4,9 @@
 #include <string>
 
 #include "reconstruct/bricks/volume_bricks.hpp"
-#include "reconstruct/geometry/section_basis.hpp"
 #include "reconstruct/geometry/vector3.hpp"
-#include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
+#include "reconstruct/section/section_parameters.hpp"
 
 namespace CLI {
 class App;
@@ -16,22 +15,13 @@ class App;
 namespace biotomy::tools {
 
 /// The options that all commands that cut sections have, as they were typed.
-struct SectionOptions {
-  std::string unit = "um";
-  std::string basis = "layer";
-  std::string theta = "bounding";
-  std::string interpolation = "linear";
-  std::string pixel;  ///< empty: the least spacing
-  std::string background;
+struct SectionOptions : reconstruct::SectionParameters {
   std::string cache_mb = "512";
   bool tolerate_missing = false;
 };
 
 /// What those options mean, as far as it does not depend on the sample.
-struct SectionChoices {
-  reconstruct::LengthUnit unit{};
-  reconstruct::BasisKind basis{};
-  reconstruct::SectionStyle style;
+struct SectionChoices : reconstruct::SectionChoices {
   std::size_t cache_bytes = 0;
   reconstruct::DamagePolicy damage;
 };

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/section/film.hpp"
@@ -21,7 +22,6 @@
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"
-#include "tools/opened_sample.hpp"
 #include "tools/picture_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
@@ -30,6 +30,7 @@ namespace biotomy::tools {
 namespace {
 
 using reconstruct::InvalidRequest;
+using reconstruct::OpenedSample;
 using reconstruct::SampleError;
 using reconstruct::Series;
 using reconstruct::SeriesFrames;
@@ -182,6 +183,7 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
     reconstruct::check_film_name(*arguments.movie);
   }
   const OpenedSample sample(arguments.sample);
+  sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   reconstruct::VolumeBricks source(sample.volume, chosen.cache_bytes, chosen.damage, &sample.tail);
   const SeriesFrames frames(source, make_series(arguments, chosen, cuboid),

@@ -23,6 +23,29 @@ std::vector<Metric> metrics_of(const std::string& text) {
   return metrics;
 }
 
+constexpr const char* kSelectAttempts =
+    "SELECT id, layer, attempt, taken_at, exposure_us, gain, column_um, verdict, slug, reason, "
+    "file, metrics FROM attempts ";
+
+std::vector<AttemptNote> notes_of(SQLite::Statement& select) {
+  std::vector<AttemptNote> notes;
+  while (select.executeStep()) {
+    notes.push_back({.id = select.getColumn(0).getInt64(),
+                     .layer = select.getColumn(1).getInt64(),
+                     .attempt = select.getColumn(2).getInt(),
+                     .taken_at = select.getColumn(3).getString(),
+                     .exposure_us = select.getColumn(4).getInt64(),
+                     .gain = select.getColumn(5).getDouble(),
+                     .column = bridge::Micrometres{select.getColumn(6).getDouble()},
+                     .verdict = select.getColumn(7).getString(),
+                     .slug = select.getColumn(8).getString(),
+                     .reason = select.getColumn(9).getString(),
+                     .file = select.getColumn(10).getString(),
+                     .metrics = metrics_of(select.getColumn(11).getString())});
+  }
+  return notes;
+}
+
 /// A daemon that was killed left what is not in the journal's file yet.
 bool has_unfinished_writes(const std::filesystem::path& journal) {
   std::error_code error;
@@ -113,20 +136,25 @@ std::vector<LayerRow> JournalReader::committed_layers(std::int64_t from, std::in
 std::vector<AttemptNote> JournalReader::attempts(std::int64_t layer) const {
   return with_journal(state_->path, [&] {
     SQLite::Statement select(state_->database,
-                             "SELECT attempt, taken_at, verdict, reason, file, metrics "
-                             "FROM attempts WHERE layer = ? ORDER BY attempt");
+                             std::string(kSelectAttempts) + "WHERE layer = ? ORDER BY attempt");
     select.bind(1, layer);
-    std::vector<AttemptNote> notes;
-    while (select.executeStep()) {
-      notes.push_back({.layer = layer,
-                       .attempt = select.getColumn(0).getInt(),
-                       .taken_at = select.getColumn(1).getString(),
-                       .verdict = select.getColumn(2).getString(),
-                       .reason = select.getColumn(3).getString(),
-                       .file = select.getColumn(4).getString(),
-                       .metrics = metrics_of(select.getColumn(5).getString())});
-    }
-    return notes;
+    return notes_of(select);
+  });
+}
+
+std::vector<AttemptNote> JournalReader::attempts_after(std::int64_t id, std::int64_t limit) const {
+  return with_journal(state_->path, [&] {
+    SQLite::Statement select(state_->database,
+                             std::string(kSelectAttempts) + "WHERE id > ? ORDER BY id LIMIT ?");
+    select.bind(1, id);
+    select.bind(2, limit);
+    return notes_of(select);
+  });
+}
+
+std::int64_t JournalReader::last_attempt_id() const {
+  return with_journal(state_->path, [&] {
+    return state_->database.execAndGet("SELECT coalesce(max(id), 0) FROM attempts").getInt64();
   });
 }
 

@@ -27,6 +27,13 @@ class JournalReader {
   /// All attempts at a layer, in their order.
   std::vector<AttemptNote> attempts(std::int64_t layer) const;
 
+  /// Attempts at any layer that were written down after the one with that id, in their order, at
+  /// most `limit`.
+  std::vector<AttemptNote> attempts_after(std::int64_t id, std::int64_t limit) const;
+
+  /// The id of the attempt that was written down last; 0 if there is none.
+  std::int64_t last_attempt_id() const;
+
   std::int64_t committed_count() const;
 
   JournalSummary summary() const;

@@ -39,10 +39,15 @@ struct AttemptRow {
 
 /// What the journal says of an attempt, without the telemetry.
 struct AttemptNote {
+  std::int64_t id = 0;  ///< grows from attempt to attempt of a journal
   std::int64_t layer = 0;
   int attempt = 0;
   std::string taken_at;
+  std::int64_t exposure_us = 0;
+  double gain = 0.0;
+  bridge::Micrometres column{};
   std::string verdict;  ///< as to_string(Verdict) names it
+  std::string slug;     ///< of the reason: one word for programs
   std::string reason;
   std::string file;  ///< relative to the sample folder; empty if none was kept
   std::vector<Metric> metrics;

@@ -117,6 +117,33 @@ TEST_F(LayerJournalTest, IsReadWhileItIsWritten) {
   EXPECT_EQ(rows[0].metrics[0].name, "sharpness_ratio");
 }
 
+TEST_F(LayerJournalTest, ShowsTheAttemptsSinceTheOneThatIsKnown) {
+  LayerJournal journal(path);
+  const JournalReader reader(path);
+  EXPECT_EQ(reader.last_attempt_id(), 0);
+  EXPECT_TRUE(reader.attempts_after(0, 10).empty());
+  AttemptRow first = attempt(7, 1, Verdict::rejected);
+  first.column = bridge::Micrometres{612.5};
+  first.exposure_us = 8000;
+  first.gain = 1.5;
+  journal.record_attempt(first);
+  journal.commit_layer(attempt(7, 2, Verdict::accepted), 99, kAt);
+  journal.record_attempt(attempt(8, 1, Verdict::rejected));
+
+  const std::vector<AttemptNote> all = reader.attempts_after(0, 2);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].layer, 7);
+  EXPECT_EQ(all[0].slug, "good");
+  EXPECT_EQ(all[0].column.value, 612.5);
+  EXPECT_EQ(all[0].exposure_us, 8000);
+  EXPECT_EQ(all[0].gain, 1.5);
+  EXPECT_EQ(all[1].attempt, 2);
+  const std::vector<AttemptNote> rest = reader.attempts_after(all[1].id, 10);
+  ASSERT_EQ(rest.size(), 1U);
+  EXPECT_EQ(rest[0].layer, 8);
+  EXPECT_EQ(reader.last_attempt_id(), rest[0].id);
+}
+
 TEST_F(LayerJournalTest, CommitsALayerOnlyOnce) {
   LayerJournal journal(path);
   journal.commit_layer(attempt(1, 1, Verdict::accepted), 99, kAt);

@@ -1,4 +1,4 @@
-#include "tools/opened_sample.hpp"
+#include "reconstruct/bricks/opened_sample.hpp"
 
 #include <filesystem>
 
@@ -10,18 +10,13 @@
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace biotomy::tools {
+namespace biotomy::reconstruct {
 namespace {
-
-using reconstruct::add_layers;
-using reconstruct::message_of;
-using reconstruct::SampleError;
-using reconstruct::SampleFolder;
 
 class AnOpenedSample : public testing::Test {
  protected:
   tests::TemporaryFolder folder_;
-  SampleFolder sample_ = reconstruct::sample_with_layers(folder_ / "s", {40, 30, 80}, 8, 0);
+  SampleFolder sample_ = sample_with_layers(folder_ / "s", {40, 30, 80}, 8, 0);
 };
 
 TEST_F(AnOpenedSample, ReachesTheNewestLayerWhetherOrNotItIsInTheVolume) {
@@ -32,17 +27,18 @@ TEST_F(AnOpenedSample, ReachesTheNewestLayerWhetherOrNotItIsInTheVolume) {
     EXPECT_EQ(before_the_volume.tail.layers_present(), 3);
   }
   add_layers(sample_, 4, 34);
-  reconstruct::VolumeWriter(sample_, {}).append(34, false);
+  VolumeWriter(sample_, {}).append(34, false);
   const OpenedSample opened(sample_.path());
   EXPECT_EQ(opened.volume.layers_present(), 32);
   EXPECT_EQ(opened.tail.layers_present(), 34);
 }
 
-TEST_F(AnOpenedSample, IsRefusedWhenItHasNoLayersYet) {
-  const std::string message = message_of<SampleError>([&] { OpenedSample{sample_.path()}; });
+TEST_F(AnOpenedSample, RefusesSectionsWhenItHasNoLayersYet) {
+  const std::string message =
+      message_of<SampleError>([&] { OpenedSample(sample_.path()).require_layers(); });
   EXPECT_THAT(message, testing::AllOf(testing::StartsWith(sample_.path().string()),
                                       testing::HasSubstr("no layers yet")));
 }
 
 }  // namespace
-}  // namespace biotomy::tools
+}  // namespace biotomy::reconstruct

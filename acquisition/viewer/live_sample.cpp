@@ -1,0 +1,70 @@
+#include "acquisition/viewer/live_sample.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "reconstruct/errors.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The files that a sample is opened by are never written in place: a new content is a new file.
+std::string version_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return "none;";
+  return std::to_string(status.st_ino) + '-' + std::to_string(status.st_size) + '-' +
+         std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
+}
+
+std::uint64_t milliseconds_now() {
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(
+                                        std::chrono::system_clock::now().time_since_epoch())
+                                        .count());
+}
+
+}  // namespace
+
+SampleView::SampleView(const fs::path& folder, std::size_t cache_bytes)
+    : sample(folder), bricks(sample.volume, cache_bytes, {}, &sample.tail) {}
+
+LiveSample::LiveSample(fs::path folder, std::size_t cache_bytes)
+    : folder_(fs::absolute(folder).lexically_normal()),
+      cache_bytes_(cache_bytes),
+      generation_(milliseconds_now()) {}
+
+void LiveSample::refresh() {
+  const std::string files =
+      version_of(folder_ / "sample.toml") + version_of(folder_ / "volume.ome.zarr" / "zarr.json");
+  const std::int64_t known = view_ ? view_->sample.tail.layers_present() : 0;
+  if (view_ && files == files_ && view_->sample.folder.layers_on_disk(known + 1) == 0) return;
+  const bool other_files = files != files_;
+  files_ = files;
+  view_ = nullptr;
+  if (other_files) ++generation_;
+  auto opened = std::make_shared<SampleView>(folder_, cache_bytes_);
+  if (!other_files && opened->sample.tail.layers_present() != known) ++generation_;
+  opened->generation = generation_;
+  view_ = std::move(opened);
+}
+
+std::shared_ptr<const SampleView> LiveSample::look() {
+  const std::lock_guard lock(mutex_);
+  refresh();
+  return view_;
+}
+
+std::uint64_t LiveSample::generation() {
+  const std::lock_guard lock(mutex_);
+  try {
+    refresh();
+  } catch (const reconstruct::SampleError&) {
+    // Whoever asks for a picture is told.
+  }
+  return generation_;
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,123 @@
+import { askForToken, setToken, token } from "./token";
+
+/** The server answered, and the answer was no. `message` is its sentence. */
+export class ApiError extends Error {
+  constructor(
+    readonly status: number,
+    readonly code: string,
+    message: string,
+    readonly retryAfter: number | null = null, // seconds
+  ) {
+    super(message);
+    this.name = "ApiError";
+  }
+}
+
+/** There was no answer. */
+export class ConnectionError extends Error {
+  constructor() {
+    super("The server does not answer.");
+    this.name = "ConnectionError";
+  }
+}
+
+export interface RequestOptions {
+  method?: "GET" | "POST" | "DELETE";
+  body?: unknown; // sent as JSON
+  signal?: AbortSignal;
+  headers?: Record<string, string>;
+}
+
+/** True for the error of a request that was given up by its own AbortSignal. */
+export const isAbort = (error: unknown): boolean =>
+  error instanceof DOMException && error.name === "AbortError";
+
+/** What to show a person of any error. */
+export const sentenceOf = (error: unknown): string =>
+  error instanceof Error ? error.message : String(error);
+
+async function send(path: string, options: RequestOptions): Promise<Response> {
+  const headers: Record<string, string> = { ...options.headers };
+  if (token()) headers.Authorization = `Bearer ${token()}`;
+  if (options.body !== undefined) headers["Content-Type"] = "application/json";
+  try {
+    return await fetch(path, {
+      method: options.method ?? "GET",
+      headers,
+      body: options.body === undefined ? undefined : JSON.stringify(options.body),
+      signal: options.signal,
+      credentials: "omit",
+      redirect: "error",
+    });
+  } catch (error) {
+    if (isAbort(error)) throw error;
+    throw new ConnectionError();
+  }
+}
+
+/** The error that a response tells of. */
+export async function errorOf(response: Response): Promise<ApiError> {
+  const retry = Number(response.headers.get("Retry-After"));
+  const retryAfter = response.headers.has("Retry-After") && Number.isFinite(retry) ? retry : null;
+  try {
+    const { error } = (await response.json()) as { error: { code: string; message: string } };
+    return new ApiError(response.status, String(error.code), String(error.message), retryAfter);
+  } catch {
+    const sentence = `The server answered ${response.status} ${response.statusText}`.trim();
+    return new ApiError(response.status, "unknown", `${sentence}.`, retryAfter);
+  }
+}
+
+/**
+ * A request that succeeded; where a token is needed, the person is asked for it.
+ * Throws ApiError, ConnectionError, or the AbortError of `options.signal`.
+ */
+export async function request(path: string, options: RequestOptions = {}): Promise<Response> {
+  const withToken = token();
+  let response = await send(path, options);
+  if (response.status === 401) {
+    // Another request may have been given a token meanwhile.
+    if (token() === withToken) {
+      setToken("");
+      const why = withToken
+        ? "The token was not accepted."
+        : "This needs the token that the rig's computer keeps.";
+      if ((await askForToken(why)) === null) throw await errorOf(response);
+    }
+    response = await send(path, options);
+    if (response.status === 401) setToken("");
+  }
+  if (!response.ok) throw await errorOf(response);
+  return response;
+}
+
+export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T> {
+  return (await (await request(path, { signal })).json()) as T;
+}
+
+export async function postJson<T>(path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
+  return (await (await request(path, { method: "POST", body, signal })).json()) as T;
+}
+
+/** Answers may be empty: what they say is not looked at. */
+export async function deleteAt(path: string, signal?: AbortSignal): Promise<void> {
+  await request(path, { method: "DELETE", signal });
+}
+
+/** A picture or a file, whole. */
+export async function getBlob(path: string, signal?: AbortSignal): Promise<Blob> {
+  return (await request(path, { signal })).blob();
+}
+
+/** "/path?a=1&b=2" of what is neither undefined nor null. */
+export function withQuery(
+  path: string,
+  query: Record<string, string | number | boolean | undefined | null>,
+): string {
+  const parameters = new URLSearchParams();
+  for (const [name, value] of Object.entries(query)) {
+    if (value !== undefined && value !== null) parameters.set(name, String(value));
+  }
+  const text = parameters.toString();
+  return text ? `${path}?${text}` : path;
+}

@@ -1,0 +1,120 @@
+import { signal } from "@preact/signals";
+
+import { getJson, sentenceOf } from "./client";
+import type { StreamEvent } from "./event_parser";
+import { EventStream } from "./events";
+import type { Attempt, ExportJob, SampleProgress, Service, Status } from "./types";
+
+/** What the server tells without being asked, as it stands now. Each view reads it from here. */
+
+export const service = signal<Service | null>(null);
+export const status = signal<Status | null>(null);
+export const sampleProgress = signal<SampleProgress | null>(null);
+
+export interface Connection {
+  state: "connecting" | "live" | "lost";
+  why: string; // it is lost
+  since: number; // Date.now() when it came to this state
+  retryAt: number; // Date.now() when it is tried again; 0 unless it is lost
+}
+export const connection = signal<Connection>({
+  state: "connecting",
+  why: "",
+  since: Date.now(),
+  retryAt: 0,
+});
+
+/** Functions to call with what comes; each subscription returns what ends it. */
+class Listeners<T> {
+  private readonly all = new Set<(value: T) => void>();
+
+  readonly subscribe = (listener: (value: T) => void): (() => void) => {
+    this.all.add(listener);
+    return () => void this.all.delete(listener);
+  };
+
+  tell(value: T): void {
+    for (const listener of [...this.all]) listener(value);
+  }
+}
+
+const attempts = new Listeners<Attempt>();
+const exports = new Listeners<ExportJob>();
+const gaps = new Listeners<void>();
+
+/** Each attempt once, in order, those missed while the connection was lost included. */
+export const onAttempt = attempts.subscribe;
+export const onExport = exports.subscribe;
+/** So much was missed that what was fetched before must be fetched anew. */
+export const onGap = gaps.subscribe;
+
+/** Hands an event on to those that it is for; what can't be read is left out. */
+export function takeEvent(event: StreamEvent): void {
+  let value: unknown;
+  try {
+    value = JSON.parse(event.data);
+  } catch {
+    return;
+  }
+  switch (event.name) {
+    case "status":
+      status.value = value as Status;
+      break;
+    case "attempt":
+      attempts.tell(value as Attempt);
+      break;
+    case "sample":
+      sampleProgress.value = value as SampleProgress;
+      break;
+    case "export":
+      exports.tell(value as ExportJob);
+      break;
+    case "reload":
+      stream.forget();
+      gaps.tell();
+      break;
+  }
+}
+
+const changed = (state: Connection["state"], why = "", retryAt = 0): void => {
+  const since = connection.value.state === state ? connection.value.since : Date.now();
+  connection.value = { state, why, since, retryAt };
+};
+
+const stream = new EventStream("/api/v1/events", {
+  event: takeEvent,
+  live() {
+    changed("live");
+    // The server may be another one than before: its version, its sample.
+    void learnService();
+  },
+  lost(why, retry_ms) {
+    changed("lost", why, Date.now() + retry_ms);
+  },
+});
+
+async function learnService(): Promise<void> {
+  try {
+    const learnt = await getJson<Service>("/api/v1/service");
+    if (service.value && service.value.version !== learnt.version) {
+      location.reload(); // the page belongs to the server
+      return;
+    }
+    service.value = learnt;
+  } catch (error) {
+    if (connection.value.state !== "live") changed("lost", sentenceOf(error));
+  }
+}
+
+/** Begins to listen, and goes on until the page is closed. */
+export function goLive(): void {
+  void learnService();
+  stream.open();
+  window.addEventListener("online", () => stream.hurry());
+  document.addEventListener("visibilitychange", () => {
+    if (document.visibilityState === "visible") stream.hurry();
+  });
+}
+
+/** Tries to connect now. */
+export const reconnect = (): void => stream.hurry();

@@ -1,0 +1,55 @@
+import { signal } from "@preact/signals";
+
+/**
+ * The bearer token. It is kept as long as the tab is, and goes nowhere but into the header
+ * `Authorization`.
+ */
+
+const key = "biotomy-token";
+
+function stored(): string {
+  try {
+    return sessionStorage.getItem(key) ?? "";
+  } catch {
+    return ""; // storage may be forbidden; then it lives as long as the page
+  }
+}
+
+const held = signal(stored());
+
+/** Why a token is asked for, and what is called with the answer; null when none is. */
+export interface TokenQuestion {
+  why: string;
+  answer(token: string | null): void;
+}
+export const tokenQuestion = signal<TokenQuestion | null>(null);
+
+export const token = (): string => held.value;
+
+export function setToken(value: string): void {
+  held.value = value;
+  try {
+    if (value) sessionStorage.setItem(key, value);
+    else sessionStorage.removeItem(key);
+  } catch {
+    // As above.
+  }
+}
+
+let asking: Promise<string | null> | null = null;
+
+/** Asks the person for a token, once however many ask for it; null when they would rather not. */
+export function askForToken(why: string): Promise<string | null> {
+  asking ??= new Promise<string | null>((resolve) => {
+    tokenQuestion.value = {
+      why,
+      answer(value) {
+        tokenQuestion.value = null;
+        asking = null;
+        if (value) setToken(value);
+        resolve(value);
+      },
+    };
+  });
+  return asking;
+}

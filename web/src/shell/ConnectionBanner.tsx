@@ -1,0 +1,41 @@
+import { useEffect } from "preact/hooks";
+
+import { connection, reconnect } from "../api/live";
+import { Button } from "../ui/Button";
+import { durationWords } from "./duration_words";
+import { now } from "./now";
+
+/** Says at once that what is shown is not what is, and since when. */
+export function ConnectionBanner() {
+  const { state, why, since, retryAt } = connection.value;
+
+  useEffect(() => {
+    document.body.dataset.connection = state;
+  }, [state]);
+
+  return (
+    <div class="connection-banner" role="status" aria-live="polite">
+      {state === "lost" && (
+        <>
+          <strong>Connection lost</strong>
+          <span>
+            {why} What is shown is from before. <LostFor since={since} retryAt={retryAt} />
+          </span>
+          <Button onClick={reconnect}>Try now</Button>
+        </>
+      )}
+    </div>
+  );
+}
+
+/** Not read aloud each second. */
+function LostFor({ since, retryAt }: { since: number; retryAt: number }) {
+  const lost_s = (now.value - since) / 1000;
+  const wait_s = Math.ceil((retryAt - now.value) / 1000);
+  return (
+    <span aria-hidden="true">
+      Lost for {durationWords(lost_s)};{" "}
+      {wait_s > 0 ? `tried again in ${wait_s} s.` : "being tried now."}
+    </span>
+  );
+}

@@ -1,0 +1,60 @@
+import { useEffect } from "preact/hooks";
+
+import { connection, service } from "../api/live";
+import { RunView } from "../run/RunView";
+import { AlarmBar } from "./AlarmBar";
+import { CommandDialog } from "./CommandDialog";
+import { ConnectionBanner } from "./ConnectionBanner";
+import { Header } from "./Header";
+import { LazyView } from "./LazyView";
+import { replaceHash, route } from "./route";
+import { useTabSign } from "./tab_sign";
+import { TokenDialog } from "./TokenDialog";
+
+const layers = () => import("../layers/LayersView").then((module) => module.LayersView);
+const explorer = () => import("../explorer/ExplorerView").then((module) => module.ExplorerView);
+
+/** What is around every view, and the view that the address names. */
+export function Shell() {
+  useTabSign();
+  return (
+    <>
+      <a class="skip" href="#main" onClick={skipToMain}>
+        Skip to the content
+      </a>
+      <Header />
+      <ConnectionBanner />
+      <AlarmBar />
+      <CurrentView />
+      <CommandDialog />
+      <TokenDialog />
+    </>
+  );
+}
+
+/** The address is the view's, so that the link must not change it. */
+function skipToMain(event: Event): void {
+  event.preventDefault();
+  document.getElementById("main")?.focus();
+}
+
+function CurrentView() {
+  const name = route.value.path[0];
+  const kind = service.value?.kind;
+  const known = name === "layers" || name === "explorer" || (name === "run" && kind !== "view");
+
+  useEffect(() => {
+    if (!known && kind) replaceHash(kind === "view" ? "#/explorer" : "#/run");
+  }, [known, kind]);
+
+  if (name === "layers") return <LazyView load={layers} />;
+  if (name === "explorer") return <LazyView load={explorer} />;
+  if (name === "run" && kind !== "view") return <RunView />;
+  return (
+    <main id="main" class="view" tabIndex={-1}>
+      <p class="muted">
+        {connection.value.state === "lost" ? "The server does not answer." : "Connecting…"}
+      </p>
+    </main>
+  );
+}
