@@ -22,6 +22,7 @@ export default defineConfig({
   esbuild: { jsx: "automatic", jsxImportSource: "preact" },
   build: {
     target: "es2021",
+    manifest: true, // for check_first_view
     assetsInlineLimit: 0, // no data: addresses; each file is one the daemon can name
     modulePreload: { polyfill: false },
     reportCompressedSize: false,

@@ -1,0 +1,92 @@
+// @vitest-environment happy-dom
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+
+import { ApiError, ConnectionError, getJson, postJson, withQuery } from "../../src/api/client";
+import { setToken, token, tokenQuestion } from "../../src/api/token";
+
+const json = (value: unknown, status = 200, headers = {}) =>
+  new Response(JSON.stringify(value), { status, headers });
+const refused = (status: number, message: string, headers = {}) =>
+  json({ error: { code: "no", message } }, status, headers);
+const settle = () => new Promise((resolve) => setTimeout(resolve));
+
+describe("requests", () => {
+  const fetched = vi.fn<typeof fetch>();
+
+  beforeEach(() => {
+    fetched.mockReset();
+    vi.stubGlobal("fetch", fetched);
+    setToken("");
+  });
+
+  afterEach(() => {
+    vi.unstubAllGlobals();
+  });
+
+  const headersOf = (call: number) => new Headers(fetched.mock.calls[call][1]?.headers);
+
+  it("answer with what was sent", async () => {
+    fetched.mockResolvedValue(json({ a: 1 }));
+    expect(await getJson("/x")).toEqual({ a: 1 });
+    expect(headersOf(0).has("Authorization")).toBe(false);
+  });
+
+  it("throw the server's sentence, its status and when to come again", async () => {
+    fetched.mockResolvedValue(refused(503, "too much to do", { "Retry-After": "2" }));
+    const error = await getJson("/x").catch((reason: unknown) => reason);
+    expect(error).toBeInstanceOf(ApiError);
+    expect(error).toMatchObject({ status: 503, message: "too much to do", retryAfter: 2 });
+  });
+
+  it("throw something readable of an answer that is not ours", async () => {
+    fetched.mockResolvedValue(new Response("<html>", { status: 502, statusText: "Bad Gateway" }));
+    await expect(getJson("/x")).rejects.toThrow("The server answered 502 Bad Gateway.");
+  });
+
+  it("throw ConnectionError without an answer, and the abort as it is", async () => {
+    fetched.mockRejectedValueOnce(new TypeError("failed"));
+    await expect(getJson("/x")).rejects.toBeInstanceOf(ConnectionError);
+    fetched.mockRejectedValueOnce(new DOMException("stopped", "AbortError"));
+    await expect(getJson("/x")).rejects.toMatchObject({ name: "AbortError" });
+  });
+
+  it("ask once for a token, and send it in the header alone", async () => {
+    fetched.mockImplementation(async (_path, init) =>
+      new Headers(init?.headers).get("Authorization") === "Bearer secret"
+        ? json({ ok: true })
+        : refused(401, "a token is needed"),
+    );
+    const answers = Promise.all([getJson("/a"), postJson("/b", { reason: "x" })]);
+    await settle();
+    tokenQuestion.value?.answer("secret");
+    expect(await answers).toEqual([{ ok: true }, { ok: true }]);
+    expect(tokenQuestion.value).toBeNull();
+    for (const [path] of fetched.mock.calls) expect(String(path)).not.toContain("secret");
+  });
+
+  it("fail with the server's sentence when the person gives no token", async () => {
+    fetched.mockImplementation(async () => refused(401, "a token is needed"));
+    const answer = getJson("/a").catch((reason: unknown) => reason);
+    await settle();
+    tokenQuestion.value?.answer(null);
+    expect(await answer).toMatchObject({ status: 401, message: "a token is needed" });
+  });
+
+  it("forget a token that is not accepted", async () => {
+    setToken("wrong");
+    fetched.mockImplementation(async () => refused(401, "no"));
+    const answer = getJson("/a").catch((reason: unknown) => reason);
+    await settle();
+    expect(tokenQuestion.value?.why).toContain("not accepted");
+    tokenQuestion.value?.answer(null);
+    await answer;
+    expect(token()).toBe("");
+  });
+});
+
+describe("withQuery", () => {
+  it("leaves out what is not given and encodes the rest", () => {
+    expect(withQuery("/x", { a: "1 2", b: undefined, c: null, d: 0 })).toBe("/x?a=1+2&d=0");
+    expect(withQuery("/x", {})).toBe("/x");
+  });
+});
