@@ -19,8 +19,8 @@ export const phone = { width: 390, height: 844 };
 
 const patience = 60_000; // ms: a machine that is busy is not a page that is wrong
 
-export function launch() {
-  return chromium.launch({ executablePath, args: quietly });
+export function launch(more = []) {
+  return chromium.launch({ executablePath, args: [...quietly, ...more] });
 }
 
 /** A page of its own, with its own memory, and all that went over its network and console. */

@@ -61,6 +61,10 @@ export class Program {
     }
   }
 
+  signal(name) {
+    this.#child.kill(name);
+  }
+
   /** Sends `signal` and waits for the end: its exit code, or the signal that ended it. */
   async end(signal = "SIGTERM") {
     if (this.runs) this.#child.kill(signal);

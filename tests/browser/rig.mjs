@@ -144,6 +144,14 @@ ${service}`,
     return end;
   }
 
+  /** The daemon stands still, with its connections open, until it is thawed. */
+  freezeDaemon() {
+    this.#daemon.signal("SIGSTOP");
+  }
+  thawDaemon() {
+    this.#daemon.signal("SIGCONT");
+  }
+
   /** What a person does at the rig: `rig_hand`'s words after the socket. */
   hand(...words) {
     const { status, stderr } = spawnSync(hand, [path.join(this.folder, "rig.socket"), ...words], {
@@ -181,6 +189,17 @@ ${service}`,
       },
       { seconds, said: async () => JSON.stringify(await this.status()) },
     );
+  }
+
+  /** Acknowledges if need be, and goes on with the job. */
+  async takeUpAgain() {
+    const stopped = await this.reaches("rest", ({ state }) =>
+      ["idle", "paused", "faulted", "done"].includes(state),
+    );
+    if (stopped.state === "done") return;
+    if (stopped.state === "faulted") await this.command("acknowledge");
+    const { state } = await this.reaches("unlocked", (s) => ["idle", "paused"].includes(s.state));
+    await this.command(state === "idle" ? "start" : "resume");
   }
 
   /** Runs the whole job. Whatever stops it on its way is an error. */
