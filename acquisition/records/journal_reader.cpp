@@ -1,6 +1,8 @@
 #include "acquisition/records/journal_reader.hpp"
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <nlohmann/json.hpp>
@@ -45,6 +47,78 @@ std::vector<AttemptNote> notes_of(SQLite::Statement& select) {
   }
   return notes;
 }
+
+constexpr const char* kGaveNoLayer = "verdict IN ('rejected', 'not_stored')";
+
+/// Reads one attempt's metrics into the last entries of the columns that want them. What nobody
+/// wants is passed over without a copy: a journal of 10000 layers holds some 20 MB of it.
+class WantedMetrics : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit WantedMetrics(std::vector<AttemptHistory::Column>& columns) : columns_(columns) {}
+
+  /// False when it is not JSON.
+  bool read(std::string_view text) { return nlohmann::json::sax_parse(text, this); }
+
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(number_integer_t value) override {
+    return number(static_cast<double>(value));
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    return number(static_cast<double>(value));
+  }
+  bool number_float(number_float_t value, const string_t& /*text*/) override {
+    return number(value);
+  }
+  bool string(string_t& value) override {
+    if (key_ == Key::name) name_.swap(value);
+    return true;
+  }
+  bool binary(binary_t& /*value*/) override { return true; }
+  bool start_object(std::size_t /*elements*/) override {
+    name_.clear();
+    value_.reset();
+    limit_.reset();
+    return true;
+  }
+  bool key(string_t& name) override {
+    key_ = name == "name"    ? Key::name
+           : name == "value" ? Key::value
+           : name == "limit" ? Key::limit
+                             : Key::other;
+    return true;
+  }
+  bool end_object() override {
+    for (AttemptHistory::Column& column : columns_) {
+      if (column.name == name_) {
+        column.value.back() = value_;
+        column.limit.back() = limit_;
+      }
+    }
+    return true;
+  }
+  bool start_array(std::size_t /*elements*/) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                   const nlohmann::detail::exception& /*error*/) override {
+    return false;
+  }
+
+ private:
+  enum class Key { name, value, limit, other };
+
+  bool number(double value) {
+    if (key_ == Key::value) value_ = value;
+    if (key_ == Key::limit) limit_ = value;
+    return true;
+  }
+
+  std::vector<AttemptHistory::Column>& columns_;
+  Key key_ = Key::other;
+  std::string name_;
+  std::optional<double> value_;
+  std::optional<double> limit_;
+};
 
 /// A daemon that was killed left what is not in the journal's file yet.
 bool has_unfinished_writes(const std::filesystem::path& journal) {
@@ -155,6 +229,65 @@ std::vector<AttemptNote> JournalReader::attempts_after(std::int64_t id, std::int
 std::int64_t JournalReader::last_attempt_id() const {
   return with_journal(state_->path, [&] {
     return state_->database.execAndGet("SELECT coalesce(max(id), 0) FROM attempts").getInt64();
+  });
+}
+
+std::vector<AttemptNote> JournalReader::rejected_before(std::int64_t before,
+                                                        std::int64_t limit) const {
+  return with_journal(state_->path, [&] {
+    SQLite::Statement select(state_->database, std::string(kSelectAttempts) + "WHERE id < ? AND " +
+                                                   kGaveNoLayer + " ORDER BY id DESC LIMIT ?");
+    select.bind(1, before);
+    select.bind(2, limit);
+    return notes_of(select);
+  });
+}
+
+std::int64_t JournalReader::rejected_count() const {
+  return with_journal(state_->path, [&] {
+    return state_->database
+        .execAndGet(std::string("SELECT count(*) FROM attempts WHERE ") + kGaveNoLayer)
+        .getInt64();
+  });
+}
+
+bool JournalReader::names_file(const std::string& file) const {
+  return with_journal(state_->path, [&] {
+    SQLite::Statement select(state_->database, "SELECT 1 FROM attempts WHERE file = ? LIMIT 1");
+    select.bind(1, file);
+    return select.executeStep();
+  });
+}
+
+AttemptHistory JournalReader::history(const std::vector<std::string>& metrics,
+                                      std::int64_t after) const {
+  return with_journal(state_->path, [&] {
+    AttemptHistory history;
+    for (const std::string& name : metrics) history.metrics.push_back({name, {}, {}});
+    SQLite::Statement select(state_->database,
+                             "SELECT id, layer, attempt, verdict, column_um, taken_at, metrics "
+                             "FROM attempts WHERE id > ? ORDER BY id");
+    select.bind(1, after);
+    while (select.executeStep()) {
+      history.id.push_back(select.getColumn(0).getInt64());
+      history.layer.push_back(select.getColumn(1).getInt64());
+      history.attempt.push_back(select.getColumn(2).getInt());
+      history.verdict.push_back(select.getColumn(3).getString());
+      history.column_um.push_back(select.getColumn(4).getDouble());
+      history.taken_at.push_back(select.getColumn(5).getString());
+      for (AttemptHistory::Column& column : history.metrics) {
+        column.value.emplace_back();
+        column.limit.emplace_back();
+      }
+      const SQLite::Column text = select.getColumn(6);
+      if (!WantedMetrics(history.metrics)
+               .read({text.getText(), static_cast<std::size_t>(text.getBytes())})) {
+        throw JournalError("the journal " + state_->path.string() +
+                           " holds metrics that are not JSON: of attempt " +
+                           std::to_string(history.id.back()));
+      }
+    }
+    return history;
   });
 }
 

@@ -53,6 +53,22 @@ struct AttemptNote {
   std::vector<Metric> metrics;
 };
 
+/// Attempts column by column, as charts want them: entry i of each belongs to one attempt.
+struct AttemptHistory {
+  struct Column {
+    std::string name;
+    std::vector<std::optional<double>> value;  ///< none where the attempt has no such metric
+    std::vector<std::optional<double>> limit;
+  };
+  std::vector<std::int64_t> id;
+  std::vector<std::int64_t> layer;
+  std::vector<int> attempt;
+  std::vector<std::string> verdict;
+  std::vector<double> column_um;
+  std::vector<std::string> taken_at;
+  std::vector<Column> metrics;
+};
+
 /// One search for the focus.
 struct FocusRow {
   std::int64_t layer = 0;

@@ -3,22 +3,13 @@
 #include <chrono>
 #include <utility>
 
-#include <sys/stat.h>
-
+#include "acquisition/viewer/file_version.hpp"
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The files that a sample is opened by are never written in place: a new content is a new file.
-std::string version_of(const fs::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return "none;";
-  return std::to_string(status.st_ino) + '-' + std::to_string(status.st_size) + '-' +
-         std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
-}
 
 std::uint64_t milliseconds_now() {
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -37,8 +28,8 @@ LiveSample::LiveSample(fs::path folder, std::size_t cache_bytes)
       generation_(milliseconds_now()) {}
 
 void LiveSample::refresh() {
-  const std::string files =
-      version_of(folder_ / "sample.toml") + version_of(folder_ / "volume.ome.zarr" / "zarr.json");
+  const std::string files = file_version(folder_ / "sample.toml") + ';' +
+                            file_version(folder_ / "volume.ome.zarr" / "zarr.json");
   const std::int64_t known = view_ ? view_->sample.tail.layers_present() : 0;
   if (view_ && files == files_ && view_->sample.folder.layers_on_disk(known + 1) == 0) return;
   const bool other_files = files != files_;

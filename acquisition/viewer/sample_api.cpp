@@ -6,15 +6,18 @@
 #include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/task_arena.h>
 
 #include "acquisition/log.hpp"
 #include "acquisition/records/journal_error.hpp"
-#include "acquisition/records/journal_reader.hpp"
+#include "acquisition/viewer/layer_images.hpp"
+#include "acquisition/viewer/layer_records.hpp"
 #include "acquisition/viewer/live_sample.hpp"
 #include "acquisition/viewer/refusal.hpp"
+#include "acquisition/viewer/request_text.hpp"
 #include "acquisition/viewer/sample_json.hpp"
 #include "acquisition/viewer/section_pictures.hpp"
 #include "reconstruct/errors.hpp"
@@ -23,9 +26,25 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr const char* kSample = "/api/v1/sample";
-constexpr const char* kSection = "/api/v1/section";
-constexpr const char* kOutline = "/api/v1/section/outline";
+constexpr const char* kApi = "/api/v1/";
+constexpr std::int64_t kLargestLayer = 999999;
+constexpr std::int64_t kLargestTile = 1'000'000;
+
+/// The words of a path below kApi, or none of another one.
+std::vector<std::string> words_of(const std::string& path) {
+  std::vector<std::string> words;
+  if (!path.starts_with(kApi)) return words;
+  for (std::size_t begin = std::string_view(kApi).size(); begin <= path.size();) {
+    const std::size_t slash = std::min(path.find('/', begin), path.size());
+    words.push_back(path.substr(begin, slash - begin));
+    begin = slash + 1;
+  }
+  return words;
+}
+
+[[noreturn]] void refuse_path(const std::string& path) {
+  throw Refusal(404, "there is no " + path);
+}
 
 /// Threads that ask for pictures: the server's and the exports'.
 constexpr unsigned kAskingThreads = 3;
@@ -42,33 +61,60 @@ struct SampleApi::State {
   mutable LiveSample live;
   mutable tbb::task_arena arena;
   SectionPictures sections;
+  LayerRecords records;
+  mutable LayerImages images;
 
   State(std::filesystem::path sample, ViewerSettings chosen)
       : settings(std::move(chosen)),
         live(std::move(sample), settings.cache_bytes),
         arena(threads_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
               tbb::task_arena::priority::low),
-        sections(live, arena) {}
-
-  std::int64_t committed(const SampleView& view) const {
-    const std::filesystem::path journal = view.sample.folder.journal_path();
-    if (!std::filesystem::exists(journal)) return view.sample.tail.layers_present();
-    return JournalReader(journal).committed_count();
-  }
+        sections(live, arena),
+        records(live, settings.journal),
+        images(live, records, arena, settings.decoded_bytes) {}
 
   ApiResponse sample() const {
     const auto view = live.look();
-    return {.status = 200, .body = sample_json(*view, committed(*view))};
+    return {.status = 200, .body = sample_json(*view, records.committed())};
+  }
+
+  /// `words` are those after "layers".
+  ApiResponse layers(const std::vector<std::string>& words, const ApiRequest& request) const {
+    if (words.empty()) return records.list(request);
+    const auto layer = whole_number(words[0], 1, kLargestLayer);
+    if (!layer) throw Refusal(404, "'" + words[0] + "' is no layer: they are numbered from 1");
+    if (words.size() == 1) return records.layer(*layer);
+    if (words.size() == 2 && words[1] == "image") return images.image(*layer, request);
+    if (words.size() == 2 && words[1] == "sharpness") return images.sharpness(*layer, request);
+    if (words.size() == 5 && words[1] == "tiles") {
+      const auto number = [&](std::size_t word) {
+        const auto value = whole_number(words[word], 0, kLargestTile);
+        if (!value) refuse_path(request.path);
+        return static_cast<int>(*value);
+      };
+      return images.tile(*layer, number(2), number(3), number(4), request);
+    }
+    refuse_path(request.path);
   }
 
   ApiResponse route(const ApiRequest& request) const {
     if (!std::filesystem::exists(live.folder() / "sample.toml")) {
       throw Refusal(404, "there is no sample yet at " + live.folder().string());
     }
-    if (request.path == kSample) return sample();
-    if (request.path == kSection) return sections.picture(request);
-    if (request.path == kOutline) return sections.outline(request);
-    throw Refusal(404, "there is no " + request.path);
+    const std::vector<std::string> words = words_of(request.path);
+    const std::vector<std::string> rest(words.empty() ? words.begin() : words.begin() + 1,
+                                        words.end());
+    const std::string& first = words.empty() ? request.path : words[0];
+    if (first == "layers") return layers(rest, request);
+    if (first == "rejected" && rest.empty()) return records.rejected(request);
+    if (first == "rejected" && rest.size() == 1) return records.rejected_picture(rest[0], request);
+    if (first == "section" && rest.empty()) return sections.picture(request);
+    if (first == "section" && rest == std::vector<std::string>{"outline"}) {
+      return sections.outline(request);
+    }
+    if (first == "sample" && rest.empty()) return sample();
+    if (first == "history" && rest.empty()) return records.history(request);
+    refuse_path(request.path);
   }
 };
 
@@ -78,12 +124,19 @@ SampleApi::SampleApi(std::filesystem::path sample, ViewerSettings settings)
 SampleApi::~SampleApi() = default;
 
 bool SampleApi::answers(const ApiRequest& request) const {
-  static constexpr std::array kPaths = {kSample, kSection, kOutline};
-  return std::find(kPaths.begin(), kPaths.end(), request.path) != kPaths.end();
+  static constexpr std::array<std::string_view, 5> kFirst = {"sample", "layers", "rejected",
+                                                             "history", "section"};
+  const std::vector<std::string> words = words_of(request.path);
+  return !words.empty() && std::find(kFirst.begin(), kFirst.end(), words[0]) != kFirst.end();
 }
 
 Lane SampleApi::lane(const ApiRequest& request) {
-  return request.path == kSection ? Lane::pictures : Lane::quick;
+  const std::vector<std::string> words = words_of(request.path);
+  if (words.empty()) return Lane::files;
+  const bool draws =
+      (words[0] == "section" && words.size() == 1) || (words[0] == "layers" && words.size() > 2);
+  if (draws) return Lane::pictures;
+  return words[0] == "rejected" && words.size() > 1 ? Lane::files : Lane::quick;
 }
 
 bool SampleApi::is_command(const ApiRequest& request) {
@@ -123,7 +176,7 @@ std::string SampleApi::sample_event() const {
   nlohmann::ordered_json event = {{"committed", 0}, {"layers_present", 0}};
   try {
     const auto view = state_->live.look();
-    event = {{"committed", state_->committed(*view)},
+    event = {{"committed", state_->records.committed()},
              {"layers_present", view->sample.tail.layers_present()}};
   } catch (const std::exception&) {
     // There is no sample yet, or none that can be read: whoever asks for it is told.
