@@ -33,7 +33,10 @@ async function findings(page) {
   );
   return violations
     .filter(({ impact }) => impact === "serious" || impact === "critical")
-    .map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map(({ html, any }) => `${html.slice(0, 160)} ${any[0]?.message ?? ""}`).join(" | ")}`);
+    .map(
+      ({ id, help, nodes }) =>
+        `${id}: ${help}: ${nodes.map(({ html, any }) => `${html.slice(0, 160)} ${any[0]?.message ?? ""}`).join(" | ")}`,
+    );
 }
 
 for (const colorScheme of ["light", "dark"]) {
@@ -62,7 +65,10 @@ test("dialogs, light and dark", async () => {
       assert.deepEqual(await findings(page), []);
       await page.keyboard.press("Escape");
       await open(tab, rig.url, views[2]);
-      await page.getByRole("button", { name: /^Export/ }).first().click();
+      await page
+        .getByRole("button", { name: /^Export/ })
+        .first()
+        .click();
       await page.getByRole("dialog").waitFor();
       assert.deepEqual(await findings(page), []);
     } finally {

@@ -93,13 +93,17 @@ export class Tab {
   /** Fails if a request went anywhere but to `url`, or carried `secret` in its address. */
   assertKeptTo(url, secret) {
     const foreign = this.requests.filter(
-      (request) => !["data:", "blob:"].includes(new URL(request.url).protocol) &&
+      (request) =>
+        !["data:", "blob:"].includes(new URL(request.url).protocol) &&
         new URL(request.url).origin !== url,
     );
     assert.deepEqual(foreign, []);
     if (secret) {
       const told = this.requests.filter((request) => request.url.includes(secret));
-      assert.deepEqual(told.map(({ url: address }) => address), []);
+      assert.deepEqual(
+        told.map(({ url: address }) => address),
+        [],
+      );
     }
   }
 

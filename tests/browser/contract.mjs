@@ -102,7 +102,11 @@ export async function checkAnswer({ path, method, responses }, response, where) 
       validate(schema, JSON.parse(said), `${where}: header ${name}`);
     } else {
       const number = header.schema.type === "integer";
-      validate(at + pointer("headers", name, "schema"), number ? Number(said) : said, `${where}: header ${name}`);
+      validate(
+        at + pointer("headers", name, "schema"),
+        number ? Number(said) : said,
+        `${where}: header ${name}`,
+      );
     }
   }
 
@@ -113,7 +117,10 @@ export async function checkAnswer({ path, method, responses }, response, where) 
   }
   const type = (response.headers.get("content-type") ?? "").split(";")[0];
   const types = Object.keys(answer.content ?? {});
-  assert.ok(types.includes(type) || types.includes("*/*"), `${where}: ${status} is ${type}, not ${types}`);
+  assert.ok(
+    types.includes(type) || types.includes("*/*"),
+    `${where}: ${status} is ${type}, not ${types}`,
+  );
   if (type !== "application/json" || response.status === 206) {
     assert.ok(body.length > 0, `${where}: ${status} without a body`);
     return body;

@@ -17,7 +17,8 @@ export function readEvents(rig, { token, lastId } = {}) {
           if (field === "data") fields.data.push(value);
           else if (field) fields[field] = value;
         }
-        if (fields.data.length) yield { name: fields.event, data: fields.data.join("\n"), id: fields.id };
+        if (fields.data.length)
+          yield { name: fields.event, data: fields.data.join("\n"), id: fields.id };
       }
     }
   }

@@ -31,7 +31,11 @@ export function drawnByTool(command) {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), "biotomy-browser-"));
   try {
     const environment = { ...process.env, PATH: `${process.env.BIOTOMY_BIN}:${process.env.PATH}` };
-    const { status, stderr } = spawnSync("sh", ["-c", command], { cwd: folder, env: environment, encoding: "utf8" });
+    const { status, stderr } = spawnSync("sh", ["-c", command], {
+      cwd: folder,
+      env: environment,
+      encoding: "utf8",
+    });
     assert.equal(status, 0, `${command}: ${stderr}`);
     const [name] = fs.readdirSync(folder);
     const bytes = fs.readFileSync(path.join(folder, name));

@@ -24,7 +24,10 @@ after(async () => {
 });
 
 async function openExport() {
-  await tab.page.getByRole("button", { name: /^Export/ }).first().click();
+  await tab.page
+    .getByRole("button", { name: /^Export/ })
+    .first()
+    .click();
   const dialog = tab.page.getByRole("dialog", { name: /export/i });
   await dialog.waitFor();
   return dialog;
@@ -39,7 +42,11 @@ async function exported(dialog, extension) {
   const state = await (await rig.ask(`/api/v1/exports/${id}`)).json();
   const { name, bytes } = state.files.find((file) => file.name.endsWith(extension));
   const started = page.waitForEvent("download");
-  await job.getByRole("link", { name: new RegExp(name) }).or(job.getByRole("button", { name: new RegExp(name) })).first().click();
+  await job
+    .getByRole("link", { name: new RegExp(name) })
+    .or(job.getByRole("button", { name: new RegExp(name) }))
+    .first()
+    .click();
   const download = await started;
   assert.equal(download.suggestedFilename(), name);
   const content = fs.readFileSync(await download.path());
@@ -62,13 +69,27 @@ test("a film of a rotation has the frames that were asked for", async () => {
   const { page } = tab;
   const dialog = page.getByRole("dialog", { name: /export/i });
   if (!(await dialog.isVisible())) await openExport();
-  await dialog.getByLabel(/^Series/).first().check();
+  await dialog
+    .getByLabel(/^Series/)
+    .first()
+    .check();
   await dialog.getByLabel(/^Film/).first().check();
   await dialog.getByRole("button", { name: "Export", exact: true }).click();
   const { state, path } = await exported(dialog, ".mp4");
   const { stdout, stderr } = spawnSync(
     "ffprobe",
-    ["-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries", "stream=nb_read_frames", "-of", "csv=p=0", path],
+    [
+      "-v",
+      "error",
+      "-count_frames",
+      "-select_streams",
+      "v:0",
+      "-show_entries",
+      "stream=nb_read_frames",
+      "-of",
+      "csv=p=0",
+      path,
+    ],
     { encoding: "utf8" },
   );
   assert.equal(Number(stdout.trim().replace(",", "")), state.total, stderr);

@@ -20,7 +20,9 @@ try {
   }
   seconds.sort((a, b) => a - b);
   const told = (value) => `${value.toFixed(2)} s`;
-  console.log(`first view: ${size}; of ${times}: fastest ${told(seconds[0])}, median ${told(seconds[times >> 1])}, slowest ${told(seconds[times - 1])}`);
+  console.log(
+    `first view: ${size}; of ${times}: fastest ${told(seconds[0])}, median ${told(seconds[times >> 1])}, slowest ${told(seconds[times - 1])}`,
+  );
 } finally {
   await browser.close();
   await rig.stop();

@@ -26,7 +26,9 @@ test("the first view is under 300 KiB, in few files", async () => {
   const tab = await Tab.open(browser);
   const { files, bytes, seconds } = await loadFirstView(tab, rig.url);
   const list = files.map((file) => `${file.bytes} ${file.url}`).join("\n");
-  console.log(`${(bytes / 1024).toFixed(1)} KiB in ${files.length} files, ${seconds.toFixed(2)} s\n${list}`);
+  console.log(
+    `${(bytes / 1024).toFixed(1)} KiB in ${files.length} files, ${seconds.toFixed(2)} s\n${list}`,
+  );
   assert.ok(files.length > 2, "nothing was counted");
   assert.ok(bytes > 5000, "nothing was counted");
   assert.ok(bytes < mostBytes, list);

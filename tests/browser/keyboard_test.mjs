@@ -81,7 +81,9 @@ test("the focus stays in a dialog, and a run is started in it", async () => {
   for (let stop = 0; stop < 8; ++stop) {
     await page.keyboard.press("Tab");
     const inside = await page.evaluate(
-      () => document.activeElement === document.body || document.activeElement.closest("dialog") !== null,
+      () =>
+        document.activeElement === document.body ||
+        document.activeElement.closest("dialog") !== null,
     );
     assert.ok(inside, (await focus(page)).what);
   }

@@ -14,7 +14,10 @@ export async function giveToken(page, token) {
 /** Opens the dialog of a command such as "Start" and sends it with a reason. */
 export async function sendCommand(page, name, reason = "") {
   // The button that opens it ends with dots where more is asked before anything happens.
-  await page.getByRole("button", { name: new RegExp(`^${name}…?$`) }).first().click();
+  await page
+    .getByRole("button", { name: new RegExp(`^${name}…?$`) })
+    .first()
+    .click();
   const asked = dialog(page, name);
   if (reason) await asked.getByLabel("Reason").fill(reason);
   await asked.getByRole("button", { name, exact: true }).click();

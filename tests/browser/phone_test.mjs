@@ -35,20 +35,36 @@ const sidewards = (page) =>
 /** What one may touch and is too small; a link in a sentence may be as high as its line. */
 const tooSmall = (page, least) =>
   page.evaluate((pixels) => {
-    const touched = "a[href], button, input, select, textarea, summary, [role=button], [role=slider]";
-    return [...document.querySelectorAll(touched)]
-      .filter((element) => element.checkVisibility({ visibilityProperty: true, opacityProperty: true }))
-      .filter((element) => !(element.tagName === "A" && element.closest("p, li, td")))
-      .map((element) => ({ element, area: (element.closest("label") ?? element).getBoundingClientRect() }))
-      // What is off the screen until it has the focus is not for fingers.
-      .filter(({ area }) => area.right > 0 && area.bottom > 0 && area.width > 1)
-      .filter(({ area }) => area.width < pixels || area.height < pixels)
-      .map(({ element, area }) => `${area.width.toFixed(0)} × ${area.height.toFixed(0)} ${element.outerHTML.slice(0, 120)}`);
+    const touched =
+      "a[href], button, input, select, textarea, summary, [role=button], [role=slider]";
+    return (
+      [...document.querySelectorAll(touched)]
+        .filter((element) =>
+          element.checkVisibility({ visibilityProperty: true, opacityProperty: true }),
+        )
+        .filter((element) => !(element.tagName === "A" && element.closest("p, li, td")))
+        .map((element) => ({
+          element,
+          area: (element.closest("label") ?? element).getBoundingClientRect(),
+        }))
+        // What is off the screen until it has the focus is not for fingers.
+        .filter(({ area }) => area.right > 0 && area.bottom > 0 && area.width > 1)
+        .filter(({ area }) => area.width < pixels || area.height < pixels)
+        .map(
+          ({ element, area }) =>
+            `${area.width.toFixed(0)} × ${area.height.toFixed(0)} ${element.outerHTML.slice(0, 120)}`,
+        )
+    );
   }, least);
 
 for (const view of views) {
   test(`${view.name} fits a phone and its fingers`, async () => {
-    const tab = await Tab.open(browser, { viewport: phone, isMobile: true, hasTouch: true, deviceScaleFactor: 3 });
+    const tab = await Tab.open(browser, {
+      viewport: phone,
+      isMobile: true,
+      hasTouch: true,
+      deviceScaleFactor: 3,
+    });
     try {
       await open(tab, rig.url, view);
       assert.deepEqual(await sidewards(tab.page), []);
@@ -70,12 +86,19 @@ for (const view of views) {
 }
 
 test("a layer is swiped to and the plane is dragged by a finger", async () => {
-  const tab = await Tab.open(browser, { viewport: phone, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+  const tab = await Tab.open(browser, {
+    viewport: phone,
+    isMobile: true,
+    hasTouch: true,
+    deviceScaleFactor: 2,
+  });
   try {
     await open(tab, rig.url, views[1]);
     await tab.page.locator('[data-role="strip"] [data-layer="3"]').first().tap();
     await tab.page.waitForURL(/#\/layers\/3/);
-    await tab.page.locator('canvas[data-role="layer"][data-layer="3"][data-state="sharp"]').waitFor();
+    await tab.page
+      .locator('canvas[data-role="layer"][data-layer="3"][data-state="sharp"]')
+      .waitFor();
     tab.assertNoFaults();
   } finally {
     await tab.close();

@@ -27,7 +27,11 @@ test("the rejected ones are marked in the strip, and can be had alone", async ()
   const { page } = tab;
   await tab.visit(rig.url, "#/layers");
   await inStrip(rig.layers).first().waitFor();
-  await page.getByRole("radio", { name: /rejected/i }).or(page.getByRole("button", { name: /rejected/i })).first().click();
+  await page
+    .getByRole("radio", { name: /rejected/i })
+    .or(page.getByRole("button", { name: /rejected/i }))
+    .first()
+    .click();
   await inStrip(4).first().waitFor();
   assert.equal(await inStrip(4).first().getAttribute("data-verdict"), "rejected");
   assert.equal(await inStrip(2).count(), 0, "layer 2 had no rejected frame");

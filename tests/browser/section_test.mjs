@@ -62,7 +62,10 @@ test("a point of the plane is dragged; there is a preview, then the sharpened se
 for (const shortcut of ["Along layers", "x-z", "y-z", "Diagonal"]) {
   test(`the shortcut ${shortcut} gives the tool's section`, async () => {
     const before = await commandOf(tab.page);
-    await tab.page.getByRole("button", { name: new RegExp(`^${shortcut}`, "i") }).first().click();
+    await tab.page
+      .getByRole("button", { name: new RegExp(`^${shortcut}`, "i") })
+      .first()
+      .click();
     await assertDrawnAsByTool(before);
   });
 }

@@ -78,7 +78,11 @@ test("every answer forbids guessing its type, being framed and telling where one
 
 test("another name for this computer is refused: that is how DNS is turned against it", async () => {
   const { port } = new URL(rig.url);
-  for (const host of ["elsewhere.example", `elsewhere.example:${port}`, "127.0.0.1.elsewhere.example"]) {
+  for (const host of [
+    "elsewhere.example",
+    `elsewhere.example:${port}`,
+    "127.0.0.1.elsewhere.example",
+  ]) {
     const { status, body } = await rawly("/api/v1/status", { headers: { Host: host } });
     assert.equal(status, 421, host);
     assert.ok(JSON.parse(body).error.message.length > 10);
@@ -90,10 +94,17 @@ test("another name for this computer is refused: that is how DNS is turned again
 
 test("another origin may neither look nor command, with whatever token", async () => {
   const authorization = { Authorization: `Bearer ${rig.token}` };
-  for (const headers of [{ Origin: foreign }, { Origin: "null" }, { "Sec-Fetch-Site": "cross-site" }]) {
+  for (const headers of [
+    { Origin: foreign },
+    { Origin: "null" },
+    { "Sec-Fetch-Site": "cross-site" },
+  ]) {
     const look = await rawly("/api/v1/status", { headers: { ...headers, ...authorization } });
     assert.equal(look.status, 403, JSON.stringify(headers));
-    const command = await rawly("/api/v1/control/start", { method: "POST", headers: { ...headers, ...authorization } });
+    const command = await rawly("/api/v1/control/start", {
+      method: "POST",
+      headers: { ...headers, ...authorization },
+    });
     assert.equal(command.status, 403, JSON.stringify(headers));
   }
   const own = await rawly("/api/v1/status", { headers: { Origin: rig.url } });
@@ -104,7 +115,9 @@ test("the volume is open to neuroglancer's origin, and to no other", async () =>
   const { neuroglancer } = await (await rig.ask("/api/v1/service")).json();
   const origin = new URL(neuroglancer).origin;
   const file = "/volume.ome.zarr/zarr.json";
-  const allowed = await rawly(file, { headers: { Origin: origin, "Sec-Fetch-Site": "cross-site" } });
+  const allowed = await rawly(file, {
+    headers: { Origin: origin, "Sec-Fetch-Site": "cross-site" },
+  });
   assert.equal(allowed.status, 200);
   assert.equal(allowed.headers["access-control-allow-origin"], origin);
   const other = await rawly(file, { headers: { Origin: foreign } });
@@ -112,7 +125,11 @@ test("the volume is open to neuroglancer's origin, and to no other", async () =>
   assert.notEqual(other.headers["access-control-allow-origin"], "*");
   const asked = await rawly(file, {
     method: "OPTIONS",
-    headers: { Origin: origin, "Access-Control-Request-Method": "GET", "Access-Control-Request-Headers": "range" },
+    headers: {
+      Origin: origin,
+      "Access-Control-Request-Method": "GET",
+      "Access-Control-Request-Headers": "range",
+    },
   });
   assert.equal(asked.status, 204);
   assert.equal(asked.headers["access-control-allow-origin"], origin);
@@ -129,7 +146,11 @@ test("a page of another origin gets nothing out of the browser either", async ()
   try {
     await tab.page.goto(`http://127.0.0.1:${hostile.address().port}/`);
     const got = await tab.page.evaluate(async (url) => {
-      const tried = (what) => what.then((text) => text, () => "nothing");
+      const tried = (what) =>
+        what.then(
+          (text) => text,
+          () => "nothing",
+        );
       const image = new Image();
       const shown = new Promise((resolve) => {
         image.onload = () => resolve("a picture");
@@ -140,7 +161,11 @@ test("a page of another origin gets nothing out of the browser either", async ()
         read: await tried(fetch(`${url}/api/v1/status`).then((answer) => answer.text())),
         image: await shown,
         // What a form can send: it arrives, and is refused.
-        sent: await tried(fetch(`${url}/api/v1/control/start`, { method: "POST", mode: "no-cors" }).then(({ type }) => type)),
+        sent: await tried(
+          fetch(`${url}/api/v1/control/start`, { method: "POST", mode: "no-cors" }).then(
+            ({ type }) => type,
+          ),
+        ),
       };
     }, rig.url);
     assert.equal(got.read, "nothing");
@@ -168,7 +193,10 @@ test("a browser whose DNS was turned shows no page of ours", async () => {
 test("what is too large is refused before it is read", async () => {
   const long = "x".repeat(100_000);
   assert.equal((await rawly(`/api/v1/section?points=${long.slice(0, 12_000)}`)).status, 414);
-  assert.equal((await rawly("/api/v1/status", { headers: { "X-Long": long.slice(0, 40_000) } })).status, 431);
+  assert.equal(
+    (await rawly("/api/v1/status", { headers: { "X-Long": long.slice(0, 40_000) } })).status,
+    431,
+  );
   const posted = await rawly("/api/v1/control/pause", {
     method: "POST",
     headers: { "Content-Length": 10_000_000 },

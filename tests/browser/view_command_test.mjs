@@ -36,9 +36,20 @@ before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), "biotomy-browser-"));
   writeImages(path.join(folder, "images"));
   const sample = path.join(folder, "a sample's own");
-  const made = biotomy("import", path.join(folder, "images"), "--spacing", "10,10,20", "-o", sample);
+  const made = biotomy(
+    "import",
+    path.join(folder, "images"),
+    "--spacing",
+    "10,10,20",
+    "-o",
+    sample,
+  );
   assert.equal(made.status, 0, made.stderr);
-  view = new Program("biotomy", ["view", sample, "--listen", "127.0.0.1:0", "--no-browser"], folder);
+  view = new Program(
+    "biotomy",
+    ["view", sample, "--listen", "127.0.0.1:0", "--no-browser"],
+    folder,
+  );
   url = `http://${(await view.says("http://")).replace(/[/\s].*$/, "")}`;
   browser = await launch();
   tab = await Tab.open(browser);
@@ -69,14 +80,20 @@ test("its layers are shown, and that nothing was measured is said plainly", asyn
   const { page } = tab;
   await page.goto(`${url}/#/layers/3`);
   await page.locator('canvas[data-role="layer"][data-layer="3"][data-state="sharp"]').waitFor();
-  await page.getByText(/import|no journal|not judged|no metrics|no attempts/i).first().waitFor();
+  await page
+    .getByText(/import|no journal|not judged|no metrics|no attempts/i)
+    .first()
+    .waitFor();
 });
 
 test("it exports without a token", async () => {
   const { page } = tab;
   await page.goto(`${url}/#/explorer`);
   await sharpSection(page);
-  await page.getByRole("button", { name: /^Export/ }).first().click();
+  await page
+    .getByRole("button", { name: /^Export/ })
+    .first()
+    .click();
   const dialog = page.getByRole("dialog", { name: /export/i });
   await dialog.getByRole("button", { name: "Export", exact: true }).click();
   await page.locator('[data-role="export"][data-state="done"]').first().waitFor();

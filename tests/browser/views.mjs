@@ -4,7 +4,11 @@
 export const views = [
   { name: "run", hash: "#/run", ready: 'main[data-view="run"] [data-chart]' },
   { name: "layers", hash: "#/layers/4", ready: 'canvas[data-role="layer"][data-state="sharp"]' },
-  { name: "explorer", hash: "#/explorer", ready: 'canvas[data-role="section"][data-state="sharp"]' },
+  {
+    name: "explorer",
+    hash: "#/explorer",
+    ready: 'canvas[data-role="section"][data-state="sharp"]',
+  },
 ];
 
 export async function open(tab, url, { hash, ready }) {

@@ -36,7 +36,9 @@ test("a run is started, watched and seen to end", async () => {
         state: document.querySelector("header [data-state]").dataset.state,
         headline: document.querySelector("h1").textContent,
         title: document.title,
-        now: Number(document.querySelector("main [role=progressbar]").getAttribute("aria-valuenow")),
+        now: Number(
+          document.querySelector("main [role=progressbar]").getAttribute("aria-valuenow"),
+        ),
       }));
       states.add(seen.state);
       assert.ok(seen.headline.length > 0);
