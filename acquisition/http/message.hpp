@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,7 +23,12 @@ struct ApiRequest {
   std::string body = {};
   std::string client = {};  ///< the address that it came from
   std::function<bool()> client_left =
-      {};  ///< asked between two pieces of a long work; may be empty
+      {};                             ///< asked between two pieces of a long work; may be empty
+  std::string host = {};              ///< "rig.lab:8080"
+  std::string sec_fetch_site = {};    ///< what a browser says of who asks: "same-origin", …
+  std::string sec_fetch_mode = {};    ///< "navigate" when a person follows a link
+  std::string last_event_id = {};     ///< the last event that the client heard
+  bool asks_private_network = false;  ///< of a preflight: may a public page ask this computer?
 };
 
 /// A part of a file as a response's body; it is read while it is sent.
@@ -32,12 +38,15 @@ struct FilePart {
   std::uint64_t bytes = 0;
 };
 
+class EventSubscription;
+
 struct ApiResponse {
   int status = 200;
   std::string content_type = "application/json";
   std::string body = {};
   std::map<std::string, std::string> headers = {};
-  std::optional<FilePart> file = {};  ///< in place of `body`
+  std::optional<FilePart> file = {};               ///< in place of `body`
+  std::shared_ptr<EventSubscription> events = {};  ///< in place of `body`: told until one leaves
 };
 
 /// What a request asks of the computer: each lane has threads of its own, so that none waits for

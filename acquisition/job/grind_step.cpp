@@ -39,7 +39,8 @@ bool GrindStep::poll(const bridge::StageStatus& status, TimePoint now) {
   });
   if (*result != bridge::CommandResult::done) {
     throw StepFailure("the controller answered the grind pass of layer " +
-                      std::to_string(grind_.layer) + " with " + bridge::to_string(*result));
+                          std::to_string(grind_.layer) + " with " + bridge::to_string(*result),
+                      AlarmKind::controller);
   }
   check_done(status);
   return true;
@@ -48,8 +49,9 @@ bool GrindStep::poll(const bridge::StageStatus& status, TimePoint now) {
 void GrindStep::check_done(const bridge::StageStatus& status) const {
   if (status.grind_count != grind_.count_before + 1) {
     throw StepFailure("one grind pass was asked for and the controller counts " +
-                      std::to_string(status.grind_count - grind_.count_before) +
-                      ": look at the block");
+                          std::to_string(status.grind_count - grind_.count_before) +
+                          ": look at the block",
+                      AlarmKind::disagreement);
   }
   check_position("feed", status.feed, grind_.target, settings_.limits);
   check_position("ground position", status.ground_to, grind_.target, settings_.limits);

@@ -87,7 +87,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       conditioning_(settings_.limits) {
   commands_.raise_to(earlier.last_sequence);
   alarm_ = Alarm{"the daemon has just started: look at the rig, then acknowledge",
-                 utc_text(surroundings_.wall_clock()), state_};
+                 utc_text(surroundings_.wall_clock()), state_, AlarmKind::start_latch};
   publish();
 }
 
@@ -144,7 +144,7 @@ void Job::supervise(TimePoint now) {
   if (is_layer_step(state_)) {
     if (const auto cause = supervision_.temperature_cause()) {
       if (settings_.limits.temperature_resumes) {
-        hold(HeldFor::temperature, *cause, now);
+        hold(HeldFor::temperature, cause->sentence, now);
       } else {
         fault(*cause, now);
         temperature_alarm_ = true;
@@ -154,12 +154,13 @@ void Job::supervise(TimePoint now) {
   }
   const bool past_homing = is_layer_step(state_) && state_ != JobState::storing;
   if (past_homing && fresh_ && !fresh_->interlocks.homed) {
-    fault("the controller lost its reference: its axes are not homed any more", now);
+    fault({AlarmKind::motion, "the controller lost its reference: its axes are not homed any more"},
+          now);
     return;
   }
   if (keeper_) {
     if (const auto failure = keeper_->failure())
-      fault("a record was not written: " + *failure, now);
+      fault({AlarmKind::storage, "a record was not written: " + *failure}, now);
   }
 }
 
@@ -174,7 +175,8 @@ void Job::advance(TimePoint now) {
     const auto limit = limit_of(state_, settings_);
     if (limit != std::chrono::milliseconds::max() && now - step_begin_ > limit) {
       throw StepFailure(std::string(to_string(state_)) + " took longer than " +
-                        std::to_string(limit.count()) + " ms: it " + waiting_for());
+                            std::to_string(limit.count()) + " ms: it " + waiting_for(),
+                        AlarmKind::time_limit);
     }
     if (!fresh_) return;  // without a view of the rig nothing moves on
     std::optional<JobEvent> event = poll_step(now);
@@ -187,11 +189,11 @@ void Job::advance(TimePoint now) {
     if (settings_.limits.disk_resumes && next_state(state_, JobEvent::hold)) {
       hold(HeldFor::disk, error.what(), now);
     } else {
-      fault(error.what(), now);
+      fault({alarm_kind_of(error, state_), error.what()}, now);
     }
   } catch (const std::exception& error) {
     count_committed(now);
-    fault(error.what(), now);
+    fault({alarm_kind_of(error, state_), error.what()}, now);
   }
 }
 
@@ -200,6 +202,7 @@ void Job::count_committed(TimePoint now) {
   if (cycle_->last_committed()->layer <= committed_) return;
   committed_ = cycle_->last_committed()->layer;
   last_commit_ = now;
+  time_left_.layer_done(now);
 }
 
 std::optional<JobEvent> Job::poll_step(TimePoint now) {
@@ -248,6 +251,8 @@ void Job::enter(JobState state, TimePoint now) {
   if (!keeps_pause_cause(from, state)) pause_cause_.clear();
   step_begin_ = now;
   step_command_begun_ = false;
+  // How long a layer takes says nothing when somebody let it wait.
+  if (is_at_rest(state) || state == JobState::held) time_left_.interrupted();
   if (is_layer_step(state)) {
     if (!run_began_) {
       run_began_ = now;
@@ -310,9 +315,10 @@ void Job::enter(JobState state, TimePoint now) {
   }
 }
 
-void Job::fault(const std::string& cause, TimePoint now) {
+void Job::fault(const StopCause& why, TimePoint now) {
+  const std::string& cause = why.sentence;
   log_error(kComponent, std::string("stopped while ") + to_string(state_) + ": " + cause);
-  alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock()), state_};
+  alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock()), state_, why.kind};
   note("alarm", cause);
   pause_cause_.clear();
   state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
@@ -323,6 +329,7 @@ void Job::fault(const std::string& cause, TimePoint now) {
   if (reset_answer_) answers_.push_back({std::move(*reset_answer_), {false, cause}});
   reset_answer_.reset();
   step_begin_ = now;
+  time_left_.interrupted();
   pause_requested_ = false;
   inspection_ = {};
   stop_wanted_ = !commands_.stop_now(now);
@@ -340,12 +347,13 @@ void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   try {
     go(JobEvent::hold, now);
   } catch (const std::exception& error) {
-    fault(error.what(), now);
+    fault({alarm_kind_of(error, state_), error.what()}, now);
   }
 }
 
 void Job::halt(TimePoint now) {
-  if (!at_rest()) fault("the daemon was stopped before the rig was at rest", now);
+  if (at_rest()) return;
+  fault({AlarmKind::ending, "the daemon was stopped before the rig was at rest"}, now);
 }
 
 void Job::park_after_fault(TimePoint now) {
@@ -463,6 +471,9 @@ void Job::publish() {
   status.layers = settings_.plan.layers;
   status.committed = committed_;
   status.seconds_left = seconds_left();
+  status.seconds_left_range =
+      time_left_.of(settings_.plan.layers - committed_, status.seconds_left);
+  status.commands = accepted_commands();
   status.controller_answers = fresh_.has_value();
   status.stage = last_status_;
   status.lines = inputs_;

@@ -24,6 +24,7 @@
 #include "acquisition/job/stage_commands.hpp"
 #include "acquisition/job/supervision.hpp"
 #include "acquisition/job/surroundings.hpp"
+#include "acquisition/job/time_left.hpp"
 #include "acquisition/job/worker.hpp"
 #include "acquisition/records/record_keeper.hpp"
 
@@ -75,6 +76,11 @@ class Job {
   void hear(OperatorDesk::Request& request, TimePoint now);
   void answer_operator();
   OperatorReply obey(OperatorCommand command, TimePoint now);
+  /// Why the command is refused now; nothing when it is obeyed.
+  std::optional<std::string> why_not(OperatorCommand command) const;
+  std::optional<std::string> why_not_begin(JobEvent event) const;
+  std::optional<std::string> why_not_acknowledge() const;
+  std::vector<OperatorCommand> accepted_commands() const;
   OperatorReply begin(JobEvent event, TimePoint now);
   OperatorReply acknowledge(TimePoint now);
   OperatorReply calibrate(CalibrationKind kind, TimePoint now);
@@ -104,7 +110,7 @@ class Job {
   /// Takes the transition, which the table must allow, and begins the step it leads to.
   void go(JobEvent event, TimePoint now);
   void enter(JobState state, TimePoint now);
-  void fault(const std::string& cause, TimePoint now);
+  void fault(const StopCause& why, TimePoint now);
 
   /// Temperature or disk are not as they should be, and the configuration lets the job wait.
   enum class HeldFor { temperature, disk };
@@ -180,6 +186,7 @@ class Job {
   std::int64_t committed_at_start_ = 0;
   std::optional<TimePoint> run_began_;
   TimePoint last_commit_{};
+  TimeLeft time_left_;
   std::int64_t volume_seen_ = 0;
   TimePoint volume_moved_{};
 };

@@ -26,7 +26,7 @@ std::optional<std::string> Job::why_no_calibration() const {
            ": calibrate before it begins or after its end";
   }
   if (const auto cause = supervision_.standing_cause()) {
-    return "something is wrong with the rig: " + *cause;
+    return "something is wrong with the rig: " + cause->sentence;
   }
   return std::nullopt;
 }
@@ -56,7 +56,8 @@ OperatorReply Job::calibrate_focus(TimePoint now) {
   if (const auto cause = supervision_.cause()) {
     // What only an acknowledgement cures needs a latch to acknowledge.
     fault(*cause, now);
-    return refused("the rig is stopped by an alarm (" + *cause + "): acknowledge it first");
+    return refused("the rig is stopped by an alarm (" + cause->sentence +
+                   "): acknowledge it first");
   }
   if (!fresh_) return refused("the controller did not answer just now: try again");
   if (const auto complaint = focus_calibration_complaint(*fresh_)) return refused(*complaint);
@@ -71,7 +72,7 @@ OperatorReply Job::calibrate_focus(TimePoint now) {
 void Job::poll_calibration(TimePoint now) {
   using enum CalibrationStatus::Progress;
   if (const auto cause = supervision_.standing_cause()) {
-    give_up_calibration(*cause, now);
+    give_up_calibration(cause->sentence, now);
     return;
   }
   try {
@@ -85,7 +86,7 @@ void Job::poll_calibration(TimePoint now) {
   } catch (const std::exception& error) {
     // Whoever moves axes and cannot go on leaves a rig that a person must look at.
     if (calibration_->moves_axes()) {
-      fault(error.what(), now);
+      fault({alarm_kind_of(error, JobState::idle), error.what()}, now);
     } else {
       end_calibration(failed, error.what());
     }
@@ -94,7 +95,9 @@ void Job::poll_calibration(TimePoint now) {
 
 void Job::give_up_calibration(const std::string& why, TimePoint now) {
   if (calibration_->moves_axes() && !commands_.stop_now(now)) {
-    fault("the stage did not take the stop of its calibration (" + why + ")", now);
+    fault(
+        {AlarmKind::controller, "the stage did not take the stop of its calibration (" + why + ")"},
+        now);
     return;
   }
   end_calibration(CalibrationStatus::Progress::failed, "it was given up: " + why);

@@ -52,7 +52,7 @@ void Job::hear(OperatorDesk::Request& request, TimePoint now) {
   try {
     reply = obey(request.command, now);
   } catch (const std::exception& error) {
-    fault(error.what(), now);
+    fault({alarm_kind_of(error, state_), error.what()}, now);
     reply = refused(error.what());
   }
   const std::string text = std::string(to_string(request.command)) +
@@ -74,29 +74,19 @@ void Job::answer_operator() {
 }
 
 OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
-  const std::string state = to_string(state_);
-  if (shutting_down_ && command != OperatorCommand::shut_down) {
-    return refused("the daemon is being stopped");
-  }
+  if (auto why = why_not(command)) return refused(std::move(*why));
   switch (command) {
     case OperatorCommand::start:
       return begin(JobEvent::start, now);
     case OperatorCommand::resume:
       return begin(JobEvent::resume, now);
     case OperatorCommand::pause:
-      if (is_at_rest(state_) || state_ == JobState::resetting || state_ == JobState::aborting ||
-          state_ == JobState::finishing) {
-        return refused("the job is " + state + ": there is nothing to pause");
-      }
       pause_requested_ = state_ != JobState::pausing;
       return accepted("the step at hand is finished, then the rig is parked");
     case OperatorCommand::abort:
       if (calibration_) {
         give_up_calibration("abort", now);
         return accepted("the calibration is given up");
-      }
-      if (!next_state(state_, JobEvent::abort)) {
-        return refused("the job is " + state + ": there is nothing to abort");
       }
       go(JobEvent::abort, now);
       return accepted("the rig is stopped and parked");
@@ -121,25 +111,56 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
   return refused("unknown command");
 }
 
-OperatorReply Job::begin(JobEvent event, TimePoint now) {
-  if (calibration_) return refused("a calibration is under way: wait for its end, or abort it");
-  if (next_state(state_, event)) {
-    go(event, now);
-    return accepted("the checks have begun");
+std::optional<std::string> Job::why_not(OperatorCommand command) const {
+  if (command == OperatorCommand::shut_down) return std::nullopt;
+  if (shutting_down_) return "the daemon is being stopped";
+  const std::string state = to_string(state_);
+  switch (command) {
+    case OperatorCommand::start:
+      return why_not_begin(JobEvent::start);
+    case OperatorCommand::resume:
+      return why_not_begin(JobEvent::resume);
+    case OperatorCommand::pause:
+      if (is_at_rest(state_) || state_ == JobState::resetting || state_ == JobState::aborting ||
+          state_ == JobState::finishing) {
+        return "the job is " + state + ": there is nothing to pause";
+      }
+      return std::nullopt;
+    case OperatorCommand::abort:
+      if (calibration_ || next_state(state_, JobEvent::abort)) return std::nullopt;
+      return "the job is " + state + ": there is nothing to abort";
+    case OperatorCommand::acknowledge:
+      return why_not_acknowledge();
+    default:
+      return why_no_calibration();
   }
+}
+
+std::optional<std::string> Job::why_not_begin(JobEvent event) const {
+  if (calibration_) return "a calibration is under way: wait for its end, or abort it";
+  if (next_state(state_, event)) return std::nullopt;
   if (state_ != JobState::faulted) {
-    return refused(std::string("the job is ") + to_string(state_) + ": " + to_string(event) +
-                   " does nothing now");
+    return std::string("the job is ") + to_string(state_) + ": " + to_string(event) +
+           " does nothing now";
   }
   const bool controller_latched = fresh_ && (fresh_->state == bridge::ControllerState::faulted ||
                                              fresh_->interlocks.watchdog_tripped);
   if (controller_latched) {
-    return refused("the controller is stopped by an alarm (" +
-                   supervision_.cause().value_or("of an unknown cause") +
-                   "): acknowledge it first");
+    const auto cause = supervision_.cause();
+    return "the controller is stopped by an alarm (" +
+           (cause ? cause->sentence : std::string("of an unknown cause")) +
+           "): acknowledge it first";
   }
   if (!start_up_latch_ || event != JobEvent::start) {
-    return refused("the rig is stopped by an alarm (" + alarm_->cause + "): acknowledge it first");
+    return "the rig is stopped by an alarm (" + alarm_->cause + "): acknowledge it first";
+  }
+  return why_not_acknowledge();
+}
+
+OperatorReply Job::begin(JobEvent event, TimePoint now) {
+  if (next_state(state_, event)) {
+    go(event, now);
+    return accepted("the checks have begun");
   }
   // The operator who starts a rig whose daemon has just started has looked at it.
   OperatorReply reply = acknowledge(now);
@@ -147,23 +168,35 @@ OperatorReply Job::begin(JobEvent event, TimePoint now) {
   return reply;
 }
 
-OperatorReply Job::acknowledge(TimePoint now) {
+std::optional<std::string> Job::why_not_acknowledge() const {
   if (state_ != JobState::faulted) {
-    return refused(std::string("the job is ") + to_string(state_) +
-                   ": there is no alarm to acknowledge");
+    return std::string("the job is ") + to_string(state_) + ": there is no alarm to acknowledge";
   }
   if (const auto cause = supervision_.standing_cause()) {
-    return refused("the cause is still there: " + *cause);
+    return "the cause is still there: " + cause->sentence;
   }
   if (temperature_alarm_) {
     if (const auto cause = supervision_.temperature_cause()) {
-      return refused("the cause is still there: " + *cause);
+      return "the cause is still there: " + cause->sentence;
     }
   }
-  if (!at_rest()) return refused("the rig is still being parked: wait a moment");
-  if (!fresh_) return refused("the controller did not answer just now: try again");
+  if (!at_rest()) return "the rig is still being parked: wait a moment";
+  if (!fresh_) return "the controller did not answer just now: try again";
+  return std::nullopt;
+}
+
+OperatorReply Job::acknowledge(TimePoint now) {
+  if (auto why = why_not_acknowledge()) return refused(std::move(*why));
   go(JobEvent::acknowledge, now);
   return accepted("the alarm is acknowledged");
+}
+
+std::vector<OperatorCommand> Job::accepted_commands() const {
+  std::vector<OperatorCommand> commands;
+  for (const OperatorCommand command : personal_commands()) {
+    if (!why_not(command)) commands.push_back(command);
+  }
+  return commands;
 }
 
 void Job::go_on_by_itself(TimePoint now) {
@@ -194,7 +227,7 @@ void Job::go_on_by_itself(TimePoint now) {
     start_after_reset_ = went_on_by_itself_ = reply.accepted;
     log_info("job", reply.accepted ? "goes on by itself after a restart" : reply.sentence);
   } catch (const std::exception& error) {
-    fault(error.what(), now);
+    fault({alarm_kind_of(error, state_), error.what()}, now);
   }
 }
 

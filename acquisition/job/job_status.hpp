@@ -5,11 +5,15 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "acquisition/job/alarm_kind.hpp"
 #include "acquisition/job/focus_report.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/judged_attempt.hpp"
 #include "acquisition/job/layer_cycle.hpp"
+#include "acquisition/job/operator_desk.hpp"
+#include "acquisition/job/time_left.hpp"
 #include "acquisition/records/volume_feed.hpp"
 #include "firmware_bridge/lines/lines.hpp"
 #include "firmware_bridge/stage/stage.hpp"
@@ -20,6 +24,7 @@ struct Alarm {
   std::string cause;
   std::string since;                   ///< ISO 8601, UTC
   JobState state = JobState::faulted;  ///< in which it came; `faulted`: it is the start's latch
+  AlarmKind kind = AlarmKind::start_latch;
 };
 
 /// What has become of the last calibration that was asked for.
@@ -42,6 +47,8 @@ struct JobStatus {
   std::int64_t committed = 0;  ///< layers that are safe
   int attempt = 0;
   std::optional<double> seconds_left;  ///< estimate
+  std::optional<TimeLeft::Range> seconds_left_range;
+  std::vector<OperatorCommand> commands;  ///< that the job would obey now
   bool controller_answers = false;
   std::optional<bridge::StageStatus> stage;  ///< the last that was read
   bridge::SafetyInputs lines;

@@ -60,7 +60,7 @@ std::optional<JobEvent> Job::poll_recovering() {
   if (fresh_->state != bridge::ControllerState::idle) return std::nullopt;
   const auto answer = where_to_go_on(settings_.plan, findings_.journal, *fresh_, settings_.limits);
   if (const auto* disagreement = std::get_if<Disagreement>(&answer)) {
-    throw StepFailure(disagreement->sentence);
+    throw StepFailure(disagreement->sentence, AlarmKind::disagreement);
   }
   continuation_ = std::get<Continuation>(answer);
   if (continuation_->finished_grind) {
@@ -140,7 +140,8 @@ void Job::begin_resetting(TimePoint now) {
 }
 
 std::optional<JobEvent> Job::poll_resetting(TimePoint now) {
-  if (const auto cause = supervision_.standing_cause()) throw StepFailure(*cause);
+  if (const auto cause = supervision_.standing_cause())
+    throw StepFailure(cause->sentence, cause->kind);
   if (step_command_begun_ && !commands_.poll_done(*fresh_, now)) return std::nullopt;
   if (fresh_->state == bridge::ControllerState::faulted || fresh_->interlocks.watchdog_tripped) {
     return std::nullopt;

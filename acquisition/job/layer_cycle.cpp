@@ -189,7 +189,7 @@ std::optional<JobEvent> LayerCycle::judge() {
 
 void LayerCycle::remember_judgement() {
   last_judged_ = JudgedAttempt{in_hand_->layer, in_hand_->attempt, in_hand_->assessment.verdict,
-                               in_hand_->assessment.slug};
+                               in_hand_->assessment.slug, in_hand_->assessment.reason};
 }
 
 /// The prepared file is removed where files are written: the control thread waits for no disk.

@@ -36,14 +36,18 @@ const char* to_string(OperatorCommand command) {
   return "?";
 }
 
-std::optional<OperatorCommand> operator_command(std::string_view name) {
-  constexpr std::array kPersonal = {
+std::span<const OperatorCommand> personal_commands() {
+  static constexpr std::array kPersonal = {
       OperatorCommand::start,          OperatorCommand::pause,
       OperatorCommand::resume,         OperatorCommand::abort,
       OperatorCommand::acknowledge,    OperatorCommand::calibrate_flat,
       OperatorCommand::calibrate_dark, OperatorCommand::calibrate_white,
       OperatorCommand::calibrate_focus};
-  for (const OperatorCommand command : kPersonal) {
+  return kPersonal;
+}
+
+std::optional<OperatorCommand> operator_command(std::string_view name) {
+  for (const OperatorCommand command : personal_commands()) {
     if (name == to_string(command)) return command;
   }
   return std::nullopt;

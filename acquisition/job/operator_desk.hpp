@@ -3,6 +3,7 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ enum class OperatorCommand {
 };
 
 const char* to_string(OperatorCommand command);
+
+/// The commands that a person may give.
+std::span<const OperatorCommand> personal_commands();
 
 /// The command of that name, of those that a person may give; nothing for any other name.
 std::optional<OperatorCommand> operator_command(std::string_view name);

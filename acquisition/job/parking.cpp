@@ -26,7 +26,7 @@ void Parking::begin(From from, TimePoint now) {
 
 bool Parking::poll(const bridge::StageStatus& status, TimePoint now) {
   if (phase_ != Phase::parked && now > deadline_) {
-    throw StepFailure("parking took too long: " + waiting_for());
+    throw StepFailure("parking took too long: " + waiting_for(), AlarmKind::time_limit);
   }
   switch (phase_) {
     case Phase::stop:
@@ -75,7 +75,7 @@ void check_position(const char* axis, bridge::Micrometres actual, bridge::Microm
   std::snprintf(text.data(), text.size(),
                 "the %s is at %.1f µm and should be at %.1f µm: look for what holds it", axis,
                 actual.value, expected.value);
-  throw StepFailure(text.data());
+  throw StepFailure(text.data(), AlarmKind::motion);
 }
 
 }  // namespace biotomy::acquisition

@@ -44,7 +44,7 @@ void StageCommands::hand_over(TimePoint now) {
   } catch (const bridge::DeviceError& error) {
     const bool may_have_arrived = error.kind() == bridge::DeviceError::Kind::timeout ||
                                   error.kind() == bridge::DeviceError::Kind::disconnected;
-    if (!may_have_arrived) throw StepFailure(error.what());
+    if (!may_have_arrived) throw StepFailure(error.what(), AlarmKind::link);
     log_warning(kComponent, named(command_, last_sequence_) +
                                 " was not answered, its number is read back: " + error.what());
   }
@@ -59,12 +59,14 @@ std::optional<bridge::CommandResult> StageCommands::poll(const bridge::StageStat
   }
   if (started_) {
     throw StepFailure("the controller forgot " + named(command_, last_sequence_) +
-                      ": was it restarted? Look at the rig before going on");
+                          ": was it restarted? Look at the rig before going on",
+                      AlarmKind::controller);
   }
   if (answered_) {
     if (now - handed_over_at_ > limits_.command_start) {
       throw StepFailure("the controller took " + named(command_, last_sequence_) +
-                        " but does not start it: look at the controller's program");
+                            " but does not start it: look at the controller's program",
+                        AlarmKind::controller);
     }
     return std::nullopt;
   }
@@ -72,7 +74,8 @@ std::optional<bridge::CommandResult> StageCommands::poll(const bridge::StageStat
   if (now - *read_back_since_ < limits_.read_back) return std::nullopt;
   if (issues_ >= limits_.command_issues) {
     throw StepFailure("the controller did not receive " + named(command_, last_sequence_) + " in " +
-                      std::to_string(issues_) + " attempts: check the link");
+                          std::to_string(issues_) + " attempts: check the link",
+                      AlarmKind::link);
   }
   hand_over(now);
   return std::nullopt;
@@ -83,7 +86,8 @@ bool StageCommands::poll_done(const bridge::StageStatus& status, TimePoint now) 
   if (!result) return false;
   if (*result == bridge::CommandResult::done) return true;
   throw StepFailure("the controller answered " + named(command_, last_sequence_) + " with " +
-                    bridge::to_string(*result));
+                        bridge::to_string(*result),
+                    AlarmKind::controller);
 }
 
 bool StageCommands::stop_now(TimePoint now) {

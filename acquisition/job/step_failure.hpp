@@ -1,7 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
+#include <string>
+
+#include "acquisition/job/alarm_kind.hpp"
 
 namespace biotomy::acquisition {
 
@@ -12,12 +16,19 @@ using TimePoint = std::chrono::steady_clock::time_point;
 class StepFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  StepFailure(const std::string& cause, AlarmKind kind) : std::runtime_error(cause), kind_(kind) {}
+
+  /// What it is about; nothing when the step itself tells.
+  std::optional<AlarmKind> kind() const { return kind_; }
+
+ private:
+  std::optional<AlarmKind> kind_;
 };
 
 /// There is not enough room on the disk for the layers to come.
 class DiskFull : public StepFailure {
  public:
-  using StepFailure::StepFailure;
+  explicit DiskFull(const std::string& cause) : StepFailure(cause, AlarmKind::disk) {}
 };
 
 }  // namespace biotomy::acquisition

@@ -27,6 +27,25 @@ std::string outside_window_text(const SafetyLimits& limits, double block_tempera
          with_unit(limits.block_temperature_maximum_c, "°C");
 }
 
+/// By the fault codes of the register map.
+AlarmKind kind_of_fault(std::uint16_t fault_code) {
+  switch (fault_code) {
+    case 1:
+      return AlarmKind::emergency_stop;
+    case 2:
+      return AlarmKind::door;
+    case 3:
+      return AlarmKind::watchdog;
+    case 4:
+    case 5:
+      return AlarmKind::motion;
+    case 6:
+      return AlarmKind::wheel;
+    default:
+      return AlarmKind::controller;
+  }
+}
+
 }  // namespace
 
 Supervision::Supervision(const SafetyLimits& limits) : limits_(limits), motion_(limits) {}
@@ -61,69 +80,82 @@ void Supervision::observe(const std::optional<bridge::StageStatus>& status,
   status_ = *status;
 }
 
-std::optional<std::string> Supervision::cause() const {
+std::optional<StopCause> Supervision::cause() const {
   if (auto cause = interlock_cause()) return cause;
   if (last_exchange_) {
     if (status_.state == bridge::ControllerState::faulted) {
-      return std::string("the controller is faulted: ") + fault_text(status_.fault_code);
+      return StopCause{kind_of_fault(status_.fault_code),
+                       std::string("the controller is faulted: ") + fault_text(status_.fault_code)};
     }
     if (status_.interlocks.watchdog_tripped) {
-      return "the controller's watchdog tripped: it missed the daemon's heartbeat";
+      return StopCause{AlarmKind::watchdog,
+                       "the controller's watchdog tripped: it missed the daemon's heartbeat"};
     }
   }
   if (auto cause = link_cause()) return cause;
   return machine_cause();
 }
 
-std::optional<std::string> Supervision::standing_cause() const {
+std::optional<StopCause> Supervision::standing_cause() const {
   if (auto cause = interlock_cause()) return cause;
   return link_cause();
 }
 
-std::optional<std::string> Supervision::line_cause(const bridge::SafetyInputs& inputs) {
-  if (!inputs.failure.empty()) return "e-stop and door cannot be read: " + inputs.failure;
-  if (inputs.estop_pressed) return "the e-stop is pressed (line)";
-  if (inputs.door_open) return "the door is open (line)";
+std::optional<StopCause> Supervision::line_cause(const bridge::SafetyInputs& inputs) {
+  if (!inputs.failure.empty())
+    return StopCause{AlarmKind::lines, "e-stop and door cannot be read: " + inputs.failure};
+  if (inputs.estop_pressed)
+    return StopCause{AlarmKind::emergency_stop, "the e-stop is pressed (line)"};
+  if (inputs.door_open) return StopCause{AlarmKind::door, "the door is open (line)"};
   return std::nullopt;
 }
 
-std::optional<std::string> Supervision::interlock_cause() const {
+std::optional<StopCause> Supervision::interlock_cause() const {
   if (auto cause = line_cause(inputs_)) return cause;
   if (last_exchange_ && status_.interlocks.estop_pressed) {
-    return "the e-stop is pressed (controller)";
+    return StopCause{AlarmKind::emergency_stop, "the e-stop is pressed (controller)"};
   }
-  if (last_exchange_ && status_.interlocks.door_open) return "the door is open (controller)";
+  if (last_exchange_ && status_.interlocks.door_open)
+    return StopCause{AlarmKind::door, "the door is open (controller)"};
   return std::nullopt;
 }
 
-std::optional<std::string> Supervision::link_cause() const {
+std::optional<StopCause> Supervision::link_cause() const {
   const std::optional<TimePoint> heard = last_exchange_ ? last_exchange_ : first_observation_;
   if (!heard || now_ - *heard > limits_.link_lost) {
-    return "the controller does not answer since more than " + milliseconds(limits_.link_lost) +
-           ": check its power and the link";
+    return StopCause{AlarmKind::link, "the controller does not answer since more than " +
+                                          milliseconds(limits_.link_lost) +
+                                          ": check its power and the link"};
   }
   if (last_exchange_ && *last_exchange_ - *heartbeat_changed_ > limits_.controller_silent) {
-    return "the controller's heartbeat stands still since more than " +
-           milliseconds(limits_.controller_silent) + ": its program does not run";
+    return StopCause{AlarmKind::link, "the controller's heartbeat stands still since more than " +
+                                          milliseconds(limits_.controller_silent) +
+                                          ": its program does not run"};
   }
   return std::nullopt;
 }
 
-std::optional<std::string> Supervision::machine_cause() const {
+std::optional<StopCause> Supervision::machine_cause() const {
   if (load_.lasts(limits_.spindle_load_delay, now_)) {
-    return "the spindle's load is " + with_unit(status_.spindle_load_percent, "%") + ", above " +
-           with_unit(limits_.spindle_load_maximum_percent, "%") + ": look at the wheel";
+    return StopCause{AlarmKind::wheel,
+                     "the spindle's load is " + with_unit(status_.spindle_load_percent, "%") +
+                         ", above " + with_unit(limits_.spindle_load_maximum_percent, "%") +
+                         ": look at the wheel"};
   }
   if (vibration_.lasts(limits_.vibration_delay, now_)) {
-    return "the spindle vibrates by " + with_unit(status_.vibration_mm_s, "mm/s") + ", above " +
-           with_unit(limits_.vibration_maximum_mm_s, "mm/s") + ": look at the wheel";
+    return StopCause{AlarmKind::wheel, "the spindle vibrates by " +
+                                           with_unit(status_.vibration_mm_s, "mm/s") + ", above " +
+                                           with_unit(limits_.vibration_maximum_mm_s, "mm/s") +
+                                           ": look at the wheel"};
   }
-  return motion_.cause();
+  if (const auto& cause = motion_.cause()) return StopCause{AlarmKind::motion, *cause};
+  return std::nullopt;
 }
 
-std::optional<std::string> Supervision::temperature_cause() const {
+std::optional<StopCause> Supervision::temperature_cause() const {
   if (!temperature_.lasts(limits_.temperature_delay, now_)) return std::nullopt;
-  return outside_window_text(limits_, status_.block_temperature_c);
+  return StopCause{AlarmKind::temperature,
+                   outside_window_text(limits_, status_.block_temperature_c)};
 }
 
 std::optional<std::string> temperature_complaint(const SafetyLimits& limits,

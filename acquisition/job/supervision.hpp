@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "acquisition/job/alarm_kind.hpp"
 #include "acquisition/job/motion_watch.hpp"
 #include "acquisition/job/safety_limits.hpp"
 #include "acquisition/job/step_failure.hpp"
@@ -11,10 +12,10 @@
 
 namespace biotomy::acquisition {
 
-/// Watches the rig at every tick and says in one sentence why the wheel must stop. It sees
-/// everything twice where there are two ways to see it (lines and controller), and progress, not
-/// only limits: a heartbeat that does not beat is a controller whose program stands still, an axis
-/// that does not come nearer to its target is stuck.
+/// Watches the rig at every tick and says in one sentence why the wheel must stop, and what that is
+/// about. It sees everything twice where there are two ways to see it (lines and controller), and
+/// progress, not only limits: a heartbeat that does not beat is a controller whose program stands
+/// still, an axis that does not come nearer to its target is stuck.
 class Supervision {
  public:
   explicit Supervision(const SafetyLimits& limits);
@@ -24,16 +25,16 @@ class Supervision {
                TimePoint now);
 
   /// Why the wheel must stop now, whatever the step is; nothing when all is well.
-  std::optional<std::string> cause() const;
+  std::optional<StopCause> cause() const;
 
   /// Why the wheel must stop by the lines alone, before the controller is asked.
-  static std::optional<std::string> line_cause(const bridge::SafetyInputs& inputs);
+  static std::optional<StopCause> line_cause(const bridge::SafetyInputs& inputs);
 
   /// That the block is outside its window of temperature for too long to work on it.
-  std::optional<std::string> temperature_cause() const;
+  std::optional<StopCause> temperature_cause() const;
 
   /// Why the latch must not be opened: as `cause`, but without what resetting the controller cures.
-  std::optional<std::string> standing_cause() const;
+  std::optional<StopCause> standing_cause() const;
 
   /// The machine was left to itself or to a person: where its axes were says nothing any more.
   void forget_positions() { motion_.forget(); }
@@ -46,9 +47,9 @@ class Supervision {
     bool lasts(std::chrono::milliseconds limit, TimePoint now) const;
   };
 
-  std::optional<std::string> interlock_cause() const;
-  std::optional<std::string> link_cause() const;
-  std::optional<std::string> machine_cause() const;
+  std::optional<StopCause> interlock_cause() const;
+  std::optional<StopCause> link_cause() const;
+  std::optional<StopCause> machine_cause() const;
 
   SafetyLimits limits_;
   bridge::SafetyInputs inputs_;

@@ -31,8 +31,8 @@ Access::Access(Credentials credentials, const AccessSettings& settings, Clock cl
       settings_(settings),
       clock_(std::move(clock)),
       refused_(std::move(refused)),
-      failures_(settings.failed_tokens_per_minute),
-      commands_(settings.commands_per_minute) {}
+      failures_(RateLimit::per_minute(settings.failed_tokens_per_minute)),
+      commands_(RateLimit::per_minute(settings.commands_per_minute)) {}
 
 Ruling Access::reading(const std::string& client, std::string_view authorization,
                        const std::string& what) {

@@ -6,8 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "acquisition/http/rate_limit.hpp"
+#include "acquisition/job/step_failure.hpp"
 #include "acquisition/service/credentials.hpp"
-#include "acquisition/service/rate_limit.hpp"
 #include "acquisition/service/refusal_log.hpp"
 
 namespace biotomy::acquisition {

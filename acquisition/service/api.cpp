@@ -1,7 +1,6 @@
 #include "acquisition/service/api.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <future>
 #include <optional>
@@ -11,43 +10,19 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/log.hpp"
-#include "acquisition/records/journal_reader.hpp"
+#include "acquisition/service/api_paths.hpp"
+#include "acquisition/service/attempt_watch.hpp"
+#include "acquisition/service/event_source.hpp"
 #include "acquisition/service/status_json.hpp"
-#include "acquisition/service/status_page.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
-constexpr std::int64_t kDefaultLimit = 100;
-constexpr std::int64_t kLargestLimit = 1000;
-constexpr std::int64_t kLargestLayer = 999999;
 constexpr std::size_t kLongestReason = 500;
 constexpr std::string_view kControl = "/api/v1/control/";
-constexpr const char* kHealth = "/healthz";
-constexpr const char* kMetrics = "/metrics";
-constexpr const char* kStatus = "/api/v1/status";
-constexpr const char* kLayers = "/api/v1/layers";
-constexpr const char* kPage = "/";
-constexpr std::array kReadable = {kHealth, kMetrics, kStatus, kLayers, kPage};
-
-ApiResponse json_response(std::string body) {
-  return {
-      .status = 200, .content_type = "application/json", .body = std::move(body), .headers = {}};
-}
-
-/// The number under `name`; nothing when it is not a whole number in the range.
-std::optional<std::int64_t> number(const ApiRequest& request, const std::string& name,
-                                   std::int64_t fallback, std::int64_t minimum,
-                                   std::int64_t maximum) {
-  const auto found = request.query.find(name);
-  if (found == request.query.end()) return fallback;
-  const std::string& text = found->second;
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (value < minimum || value > maximum) return std::nullopt;
-  return value;
-}
+constexpr std::string_view kMetrics = "/metrics";
+constexpr std::string_view kStatus = "/api/v1/status";
+constexpr std::chrono::milliseconds kReplyLook{50};  // while waiting: is the client still there?
 
 /// The operator's words in a body {"reason": "…"}; an empty body has none. Nothing when the body is
 /// something else.
@@ -61,13 +36,6 @@ std::optional<std::string> reason_of(const std::string& body) {
   return document["reason"].get<std::string>().substr(0, kLongestReason);
 }
 
-ApiResponse wrong_method(const ApiRequest& request, const char* allowed) {
-  ApiResponse response =
-      error_response(405, request.path + " takes " + allowed + ", not " + request.method);
-  response.headers["Allow"] = allowed;
-  return response;
-}
-
 ApiResponse refusal(const Ruling& ruling) {
   ApiResponse response = error_response(ruling.status, ruling.sentence);
   if (ruling.status == 401) response.headers["WWW-Authenticate"] = "Bearer";
@@ -77,56 +45,91 @@ ApiResponse refusal(const Ruling& ruling) {
   return response;
 }
 
+/// Waits no longer than the client does.
+bool comes_in_time(const std::future<OperatorReply>& reply, std::chrono::milliseconds time,
+                   const ApiRequest& request) {
+  const auto limit = std::chrono::steady_clock::now() + time;
+  while (true) {
+    const auto left = limit - std::chrono::steady_clock::now();
+    if (left <= left.zero() || (request.client_left && request.client_left())) return false;
+    const auto wait = std::min<std::chrono::steady_clock::duration>(left, kReplyLook);
+    if (reply.wait_for(wait) == std::future_status::ready) return true;
+  }
+}
+
 }  // namespace
 
 Api::Api(ApiParts parts, std::chrono::milliseconds reply_time_out)
     : parts_(std::move(parts)), reply_time_out_(reply_time_out) {}
 
+Lane Api::lane(const ApiRequest& request) const {
+  return parts_.sample.answers(request) ? SampleApi::lane(request) : Lane::quick;
+}
+
 ApiResponse Api::answer(const ApiRequest& request) const {
   try {
-    if (request.path.starts_with(kControl)) {
-      return control(request.path.substr(kControl.size()), request);
-    }
-    if (std::find(kReadable.begin(), kReadable.end(), request.path) == kReadable.end()) {
-      return error_response(404, "there is no " + request.path);
-    }
-    if (request.method != "GET") return wrong_method(request, "GET");
-    if (request.path == kHealth) return json_response(R"({"status":"ok"})");
-    const Ruling ruling =
-        parts_.access.reading(request.client, request.authorization, "reading " + request.path);
-    return ruling.granted ? read(request) : refusal(ruling);
+    return route(request);
   } catch (const std::exception& error) {
     log_error("http", request.path + ": " + error.what());
     return error_response(500, error.what());
   }
 }
 
-ApiResponse Api::read(const ApiRequest& request) const {
-  if (request.path == kStatus) return json_response(status_json(*parts_.board.look()));
-  if (request.path == kLayers) return layers(request);
-  if (request.path == kMetrics) {
-    return {.status = 200,
-            .content_type = "text/plain; version=0.0.4; charset=utf-8",
-            .body = parts_.metrics(),
-            .headers = {}};
+ApiResponse Api::route(const ApiRequest& request) const {
+  if (request.path.starts_with(kControl)) {
+    return control(request.path.substr(kControl.size()), request);
   }
-  ApiResponse page{.status = 200,
-                   .content_type = "text/html; charset=utf-8",
-                   .body = status_page(*parts_.board.look()),
-                   .headers = {}};
-  page.headers["Content-Security-Policy"] = "default-src 'none'; style-src 'unsafe-inline'";
-  return page;
+  if (parts_.sample.answers(request)) return sample(request);
+  if (parts_.page.answers(request)) return parts_.page.answer(request);
+  if (!is_one_of(request.path, {kHealthPath, kServicePath, kEventsPath, kStatus, kMetrics})) {
+    return error_response(404, "there is no " + request.path);
+  }
+  if (request.method != "GET") return wrong_method(request, "GET");
+  if (request.path == kHealthPath) return json_response(kHealthy);
+  if (request.path == kServicePath) return json_response(service_json(parts_.service));
+  const Ruling ruling =
+      parts_.access.reading(request.client, request.authorization, "reading " + request.path);
+  return ruling.granted ? read(request) : refusal(ruling);
 }
 
-ApiResponse Api::layers(const ApiRequest& request) const {
-  const auto from = number(request, "from", 1, 1, kLargestLayer);
-  if (!from) return error_response(400, "from must be a layer number, 1 to 999999");
-  const auto limit = number(request, "limit", kDefaultLimit, 1, kLargestLimit);
-  if (!limit) return error_response(400, "limit must be a number from 1 to 1000");
-  if (!std::filesystem::exists(parts_.journal)) return json_response(layers_json({}, 0));
-  const JournalReader reader(parts_.journal);
-  return json_response(
-      layers_json(reader.committed_layers(*from, *limit), reader.committed_count()));
+ApiResponse Api::sample(const ApiRequest& request) const {
+  const std::string what =
+      (request.method == "GET" ? "reading " : request.method + " ") + request.path;
+  const Ruling ruling = SampleApi::is_command(request)
+                            ? parts_.access.command(request.client, request.authorization, what)
+                            : parts_.access.reading(request.client, request.authorization, what);
+  return ruling.granted ? parts_.sample.answer(request) : refusal(ruling);
+}
+
+ApiResponse Api::read(const ApiRequest& request) const {
+  if (request.path == kStatus) return json_response(parts_.status());
+  if (request.path == kEventsPath) return events(request);
+  return {.content_type = "text/plain; version=0.0.4; charset=utf-8", .body = parts_.metrics()};
+}
+
+ApiResponse Api::events(const ApiRequest& request) const {
+  std::optional<std::int64_t> heard;
+  if (const std::string& text = request.last_event_id; !text.empty()) {
+    std::int64_t id = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (error != std::errc() || end != text.data() + text.size() || id < 0) {
+      return error_response(400, "Last-Event-ID must be the number of an event");
+    }
+    heard = id;
+  }
+  auto subscription = parts_.feed.subscribe();
+  if (heard) {
+    std::vector<EventText> texts;
+    if (const auto missed = missed_attempts(parts_.journal, *heard, subscription->begins_after())) {
+      for (const AttemptNote& attempt : *missed) {
+        texts.push_back(event_text("attempt", attempt_json(attempt), attempt.id));
+      }
+    } else {
+      texts.push_back(event_text("reload", "{}"));
+    }
+    subscription->catch_up(texts);
+  }
+  return event_response(std::move(subscription));
 }
 
 ApiResponse Api::control(const std::string& name, const ApiRequest& request) const {
@@ -146,7 +149,7 @@ ApiResponse Api::control(const std::string& name, const ApiRequest& request) con
     return error_response(400, R"(the body must be empty or {"reason": "a few words"})");
   }
   std::future<OperatorReply> reply = parts_.desk.post(*command, *reason, ruling.who);
-  if (reply.wait_for(reply_time_out_) != std::future_status::ready) {
+  if (!comes_in_time(reply, reply_time_out_, request)) {
     log_warning("operator", name + " by " + ruling.who + " was not answered in time");
     return error_response(503,
                           "the rig's control did not answer in time; look at the status "

@@ -5,35 +5,46 @@
 #include <functional>
 #include <string>
 
-#include "acquisition/http/message.hpp"
-#include "acquisition/job/job_status.hpp"
+#include "acquisition/http/event_feed.hpp"
+#include "acquisition/http/http_application.hpp"
+#include "acquisition/http/page.hpp"
 #include "acquisition/job/operator_desk.hpp"
 #include "acquisition/service/access.hpp"
+#include "acquisition/service/service_json.hpp"
+#include "acquisition/viewer/sample_api.hpp"
 
 namespace biotomy::acquisition {
 
 /// What the API looks at and speaks to. All outlive it.
 struct ApiParts {
-  const StatusBoard& board;
   OperatorDesk& desk;
   Access& access;
+  const Page& page;
+  const SampleApi& sample;
+  EventFeed& feed;
   std::filesystem::path journal;         ///< where the sample's journal is or will be
+  ServiceDescription service;            ///< what is told to everybody
+  std::function<std::string()> status;   ///< the JSON of /api/v1/status, for any thread
   std::function<std::string()> metrics;  ///< the text of /metrics, for any thread
 };
 
 /// What the daemon answers over HTTP, without a word of HTTP's own. It never touches a device: it
-/// looks at the status board and at the journal, and lays commands on the operator's desk. Safe for
-/// many threads.
-class Api {
+/// looks at the status board, the journal and the sample, and lays commands on the operator's desk.
+/// Safe for many threads.
+class Api : public HttpApplication {
  public:
   explicit Api(ApiParts parts, std::chrono::milliseconds reply_time_out = std::chrono::seconds(5));
 
+  Lane lane(const ApiRequest& request) const override;
+
   /// Never throws: what goes wrong is a response with {"error": {"code", "message"}}.
-  ApiResponse answer(const ApiRequest& request) const;
+  ApiResponse answer(const ApiRequest& request) const override;
 
  private:
+  ApiResponse route(const ApiRequest& request) const;
+  ApiResponse sample(const ApiRequest& request) const;
   ApiResponse read(const ApiRequest& request) const;
-  ApiResponse layers(const ApiRequest& request) const;
+  ApiResponse events(const ApiRequest& request) const;
   ApiResponse control(const std::string& name, const ApiRequest& request) const;
 
   ApiParts parts_;

@@ -13,6 +13,9 @@
 #include <pthread.h>
 
 #include "acquisition/calibration/corrected_camera.hpp"
+#include "acquisition/http/event_feed.hpp"
+#include "acquisition/http/http_server.hpp"
+#include "acquisition/http/page.hpp"
 #include "acquisition/job/control_loop.hpp"
 #include "acquisition/job/job.hpp"
 #include "acquisition/log.hpp"
@@ -20,9 +23,10 @@
 #include "acquisition/records/utc_time.hpp"
 #include "acquisition/service/access.hpp"
 #include "acquisition/service/api.hpp"
+#include "acquisition/service/attempt_watch.hpp"
 #include "acquisition/service/counted_stage.hpp"
 #include "acquisition/service/devices.hpp"
-#include "acquisition/service/http_server.hpp"
+#include "acquisition/service/event_source.hpp"
 #include "acquisition/service/liveness.hpp"
 #include "acquisition/service/metrics/metrics_page.hpp"
 #include "acquisition/service/metrics/run_metrics.hpp"
@@ -30,8 +34,10 @@
 #include "acquisition/service/notifications/notifier.hpp"
 #include "acquisition/service/notifications/run_watch.hpp"
 #include "acquisition/service/service_manager.hpp"
+#include "acquisition/service/status_json.hpp"
 #include "acquisition/service/stop_signals.hpp"
 #include "acquisition/service/watched_worker.hpp"
+#include "acquisition/viewer/sample_api.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -49,6 +55,14 @@ constexpr milliseconds kSignInterval{1000};
 constexpr milliseconds kWorkerSlack{60000};
 constexpr milliseconds kHung{5000};  // without a tick
 constexpr int kCallsInATick = 8;     // to one device, each answered late, at most
+
+ServiceDescription description_of(const Configuration& configuration) {
+  return {.kind = ServiceDescription::Kind::rig,
+          .reading_needs_token = configuration.service.access.reading_needs_token,
+          .commands_need_token = true,
+          .sample = configuration.job.plan.name,
+          .neuroglancer = configuration.service.http.guard.neuroglancer_origin};
+}
 
 /// Longer than any task of the worker may take before the job itself faults.
 milliseconds worker_limit(const JobSettings& job) {
@@ -217,11 +231,21 @@ int run_daemon(const Configuration& configuration) {
   Job job(configuration.job,
           {stage, *lines, camera, worker, volume_worker, desk, board, devices_camera.get()},
           real_surroundings(), read_earlier_run(journal));
-  const Api api({board, desk, access, journal, [&] {
-                   return metrics_page(*board.look(), observers.metrics(), link,
-                                       observers.couriers());
-                 }});
-  const HttpServer server(api, configuration.service.host, configuration.service.port);
+  AttemptWatch attempts(journal);
+  const auto status = [&] {
+    return status_json(*board.look(), {configuration.job.limits, attempts.last()});
+  };
+  const Page page(page_assets());
+  SampleApi sample(plan.sample, configuration.service.viewer);
+  EventFeed feed;
+  sample.on_export([&feed](const std::string& json) { tell_export(feed, json); });
+  const EventSource events(feed, {status, [&] { return sample.sample_event(); }, &attempts});
+  const Api api(
+      {desk, access, page, sample, feed, journal, description_of(configuration), status, [&] {
+         return metrics_page(*board.look(), observers.metrics(), link, observers.couriers());
+       }});
+  const HttpServer server(api, configuration.service.host, configuration.service.port,
+                          configuration.service.http);
 
   Liveness liveness([&] { return worker.busy_since(); }, worker_limit(configuration.job));
   SignsOfLife life(liveness, systemd);

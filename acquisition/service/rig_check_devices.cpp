@@ -127,9 +127,9 @@ class DeviceCheck {
     rig_.controller = status;
     findings_.good(kController, position_text(status));
     if (const auto cause = supervision.standing_cause()) {
-      findings_.wrong(kController, *cause);
+      findings_.wrong(kController, cause->sentence);
     } else if (const auto curable = supervision.cause()) {
-      findings_.note(kController, *curable + "; acknowledging resets it");
+      findings_.note(kController, curable->sentence + "; acknowledging resets it");
     }
     if (status.state == bridge::ControllerState::booting ||
         status.state == bridge::ControllerState::busy) {
@@ -157,13 +157,15 @@ class DeviceCheck {
     parts_.wait(kSettle);
     const bridge::SafetyInputs inputs = lines_->read_inputs();
     if (!inputs.failure.empty()) {
-      findings_.wrong(kLines, *Supervision::line_cause(inputs));
+      findings_.wrong(kLines, Supervision::line_cause(inputs)->sentence);
       return;
     }
     for (const bridge::SafetyInputs& alone :
          {bridge::SafetyInputs{.estop_pressed = inputs.estop_pressed, .door_open = false},
           bridge::SafetyInputs{.estop_pressed = false, .door_open = inputs.door_open}}) {
-      if (const auto cause = Supervision::line_cause(alone)) findings_.wrong(kLines, *cause);
+      if (const auto cause = Supervision::line_cause(alone)) {
+        findings_.wrong(kLines, cause->sentence);
+      }
     }
     is_safe_ = !inputs.estop_pressed && !inputs.door_open;
     if (is_safe_) findings_.good(kLines, "the e-stop is released, the door is closed");

@@ -11,13 +11,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "acquisition/http/http_server.hpp"
 #include "acquisition/job/recovery.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/sample_fit.hpp"
 #include "acquisition/records/sample_lock.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "acquisition/service/credentials.hpp"
-#include "acquisition/service/http_server.hpp"
 #include "acquisition/service/notifications/channels.hpp"
 
 namespace biotomy::acquisition {

@@ -11,6 +11,10 @@ namespace {
 using bridge::CheckedTable;
 using bridge::FlagKey;
 using bridge::TextKey;
+using bridge::TextsKey;
+
+constexpr int kMegabyte = 1'000'000;
+constexpr const char* kNeuroglancerDemo = "https://neuroglancer-demo.appspot.com";
 
 /// Whether only this computer reaches the address. A name other than localhost may be any address.
 bool is_loopback(const std::string& host) {
@@ -31,6 +35,59 @@ void read_listen(const CheckedTable& table, ServiceConfiguration& service) {
   } catch (const bridge::ConfigurationError&) {
     table.reject("listen", "\"" + listen + "\" is not possible; expected \"address:port\"");
   }
+}
+
+/// An origin as browsers tell it: a scheme and a host, without a path.
+bool is_origin(const std::string& text) {
+  const std::size_t scheme = text.find("://");
+  if (scheme == std::string::npos || text.find('/', scheme + 3) != std::string::npos) return false;
+  const std::string name = text.substr(0, scheme);
+  return (name == "https" || name == "http") && host_name(text.substr(scheme + 3));
+}
+
+void read_foreigners(const CheckedTable& table, ServiceConfiguration& service) {
+  service.http.guard.hosts = table.get(
+      TextsKey{.name = "hosts",
+               .fallback = std::vector<std::string>{},
+               .description = "names by which browsers ask this computer, beside its address, "
+                              "\"localhost\" and its own name; under any other they get nothing"});
+  for (const std::string& name : service.http.guard.hosts) {
+    const auto plain = host_name(name);
+    if (!plain || plain->size() != name.size()) {
+      table.reject("hosts", "\"" + name + "\" is not possible; expected a name without a port");
+    }
+  }
+  const std::string neuroglancer = table.get(
+      TextKey{.name = "neuroglancer",
+              .fallback = kNeuroglancerDemo,
+              .may_be_empty = true,
+              .description = "the one foreign page that may read the volume, neuroglancer's; "
+                             "empty: none may"});
+  if (!neuroglancer.empty() && !is_origin(neuroglancer)) {
+    table.reject("neuroglancer", "\"" + neuroglancer +
+                                     "\" is not possible; expected \"https://name\", without a "
+                                     "path");
+  }
+  service.http.guard.neuroglancer_origin = neuroglancer;
+  service.viewer.neuroglancer = neuroglancer;
+}
+
+void read_bounds(const CheckedTable& table, ServiceConfiguration& service) {
+  HttpLimits& limits = service.http.limits;
+  limits.connections =
+      static_cast<std::size_t>(count(table, "connections", static_cast<int>(limits.connections), 8,
+                                     10000, "at the same time; each open page has one or more"));
+  limits.connections_of_an_address = static_cast<std::size_t>(
+      count(table, "connections_of_an_address", static_cast<int>(limits.connections_of_an_address),
+            4, 10000, "the same of one address, or of all behind one proxy"));
+  limits.pictures_per_second =
+      count(table, "pictures_per_second", limits.pictures_per_second, 1, 1000,
+            "sections and images that one address may ask for; three times as many at once");
+  service.viewer.cache_bytes =
+      static_cast<std::size_t>(count(table, "cache_mb",
+                                     static_cast<int>(service.viewer.cache_bytes / kMegabyte), 16,
+                                     100000, "of the volume, kept in memory to cut sections")) *
+      kMegabyte;
 }
 
 }  // namespace
@@ -66,6 +123,8 @@ ServiceConfiguration read_service(const CheckedTable& table) {
   service.access.commands_per_minute =
       count(table, "commands_per_minute", service.access.commands_per_minute, 1, 10000,
             "of one address; after more commands it has to wait");
+  read_foreigners(table, service);
+  read_bounds(table, service);
   service.tick =
       duration(table, "tick_ms", service.tick, "the rig is looked after so often", 1, 200);
   service.stop_limit = duration(table, "stop_limit_ms", service.stop_limit,

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "acquisition/http/http_settings.hpp"
 #include "acquisition/service/access.hpp"
+#include "acquisition/viewer/viewer_settings.hpp"
 #include "firmware_bridge/wire/checked_table.hpp"
 
 namespace biotomy::acquisition {
@@ -14,6 +16,8 @@ struct ServiceConfiguration {
   int port = 8080;
   std::filesystem::path token_file;
   AccessSettings access;
+  HttpSettings http;
+  ViewerSettings viewer;
   std::chrono::milliseconds tick{20};
   std::chrono::milliseconds stop_limit{120000};
 };

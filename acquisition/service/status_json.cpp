@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/focus/face_lean_json.hpp"
+#include "acquisition/job/alarm_kind.hpp"
 #include "acquisition/quality/metrics_json.hpp"
 
 namespace biotomy::acquisition {
@@ -50,6 +51,34 @@ json last_layer_json(const std::optional<CommittedLayer>& layer) {
           {"metrics", metrics_json(layer->assessment.metrics)}};
 }
 
+/// The job knows an attempt before the journal does, which gives it its id.
+json last_attempt_json(const std::optional<JudgedAttempt>& judged,
+                       const std::optional<AttemptNote>& noted) {
+  if (!judged) return nullptr;
+  const bool is_noted = noted && noted->layer == judged->layer && noted->attempt == judged->attempt;
+  return {{"id", is_noted ? json(noted->id) : json(nullptr)},
+          {"layer", judged->layer},
+          {"attempt", judged->attempt},
+          {"verdict", to_string(judged->verdict)},
+          {"slug", judged->slug},
+          {"reason", judged->reason}};
+}
+
+/// Each is [lowest, highest]; null where there is no such limit.
+json limits_json(const SafetyLimits& limits) {
+  return {{"block_temperature_c",
+           {limits.block_temperature_minimum_c, limits.block_temperature_maximum_c}},
+          {"chamber_temperature_c", nullptr},
+          {"spindle_load_percent", {nullptr, limits.spindle_load_maximum_percent}},
+          {"vibration_mm_s", {nullptr, limits.vibration_maximum_mm_s}}};
+}
+
+json commands_json(const std::vector<OperatorCommand>& commands) {
+  json names = json::array();
+  for (const OperatorCommand command : commands) names.push_back(to_string(command));
+  return names;
+}
+
 json focus_json(const std::optional<FocusReport>& focus) {
   if (!focus) return nullptr;
   return {{"layer", focus->layer},          {"why", focus->why},
@@ -81,12 +110,17 @@ json calibration_json(const CalibrationStatus& calibration) {
 
 }  // namespace
 
-std::string status_json(const JobStatus& status) {
+std::string status_json(const JobStatus& status, const StatusContext& context) {
   json alarm = nullptr;
   if (status.alarm) {
     alarm = {{"cause", status.alarm->cause},
              {"since", status.alarm->since},
-             {"state", to_string(status.alarm->state)}};
+             {"state", to_string(status.alarm->state)},
+             {"advice", advice(status.alarm->kind)}};
+  }
+  json left_range = nullptr;
+  if (status.seconds_left_range) {
+    left_range = {status.seconds_left_range->low, status.seconds_left_range->high};
   }
   return dumped({{"version", BIOTOMY_VERSION},
                  {"state", to_string(status.state)},
@@ -100,8 +134,12 @@ std::string status_json(const JobStatus& status) {
                  {"committed", status.committed},
                  {"attempt", status.attempt},
                  {"seconds_left", or_null(status.seconds_left)},
+                 {"seconds_left_range", left_range},
                  {"stage", stage_json(status)},
                  {"interlocks", interlocks_json(status)},
+                 {"limits", limits_json(context.limits)},
+                 {"commands", commands_json(status.commands)},
+                 {"last_attempt", last_attempt_json(status.last_attempt, context.last_attempt)},
                  {"last_layer", last_layer_json(status.last_layer)},
                  {"focus", focus_json(status.focus)},
                  {"disk_left_layers", or_null(status.disk_left_layers)},

@@ -1,15 +1,23 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "acquisition/job/job_status.hpp"
+#include "acquisition/job/safety_limits.hpp"
 #include "acquisition/records/journal_rows.hpp"
 
 namespace biotomy::acquisition {
 
+/// What the status tells beside the job's own.
+struct StatusContext {
+  SafetyLimits limits;
+  std::optional<AttemptNote> last_attempt;  ///< the last that the journal holds
+};
+
 /// The JSON of GET /api/v1/status.
-std::string status_json(const JobStatus& status);
+std::string status_json(const JobStatus& status, const StatusContext& context);
 
 /// The JSON of GET /api/v1/layers.
 std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count);

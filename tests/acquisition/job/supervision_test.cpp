@@ -30,7 +30,8 @@ struct Rig {
       if (beats) ++status.controller_heartbeat;
       supervision.observe(answers ? std::optional(status) : std::nullopt, inputs, now);
     }
-    return supervision.cause();
+    const auto cause = supervision.cause();
+    return cause ? std::optional(cause->sentence) : std::nullopt;
   }
 };
 
@@ -70,13 +71,15 @@ TEST(Supervision, ForgivesAShortExcursionOfTheTemperatureOnly) {
   Rig rig;
   rig.status.block_temperature_c = 3.0;
   rig.after(milliseconds(4000));
-  EXPECT_EQ(rig.supervision.temperature_cause(), std::nullopt);
+  EXPECT_FALSE(rig.supervision.temperature_cause());
   rig.status.block_temperature_c = -30.0;
   rig.after(milliseconds(4000));
-  EXPECT_EQ(rig.supervision.temperature_cause(), std::nullopt);
+  EXPECT_FALSE(rig.supervision.temperature_cause());
   rig.status.block_temperature_c = 3.0;
   rig.after(milliseconds(6000));
-  EXPECT_THAT(rig.supervision.temperature_cause(), Optional(HasSubstr("the block is at 3.0 °C")));
+  ASSERT_TRUE(rig.supervision.temperature_cause());
+  EXPECT_THAT(rig.supervision.temperature_cause()->sentence, HasSubstr("the block is at 3.0 °C"));
+  EXPECT_EQ(rig.supervision.temperature_cause()->kind, AlarmKind::temperature);
 }
 
 TEST(Supervision, ForgivesAShortPeakOfTheSpindlesLoadOnly) {
@@ -94,7 +97,8 @@ TEST(Supervision, NamesTheControllersFault) {
   rig.status.state = bridge::ControllerState::faulted;
   rig.status.fault_code = 6;
   EXPECT_THAT(rig.after(milliseconds(20)), Optional(HasSubstr("spindle overload")));
-  EXPECT_EQ(rig.supervision.standing_cause(), std::nullopt);  // resetting can cure it
+  EXPECT_EQ(rig.supervision.cause()->kind, AlarmKind::wheel);
+  EXPECT_FALSE(rig.supervision.standing_cause());  // resetting can cure it
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST_F(RunMetricsTest, TimesEachStepButNoRest) {
 
 TEST_F(RunMetricsTest, CountsAttemptsByVerdictAndReason) {
   const auto judged = [&](std::int64_t layer, int attempt, Verdict verdict, const char* slug) {
-    status.last_attempt = JudgedAttempt{layer, attempt, verdict, slug};
+    status.last_attempt = JudgedAttempt{layer, attempt, verdict, slug, {}};
     tick();
     tick();
   };

@@ -1,4 +1,4 @@
-#include "acquisition/service/rate_limit.hpp"
+#include "acquisition/http/rate_limit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@ using std::chrono::milliseconds;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-constexpr TimePoint kStart{std::chrono::hours(1)};
+constexpr RateLimit::TimePoint kStart{std::chrono::hours(1)};
 
 TEST(RateLimit, AllowsSoManyAtOnceAndThenOneAfterEachShareOfAMinute) {
-  RateLimit limit(6);
+  RateLimit limit = RateLimit::per_minute(6);
   for (int i = 0; i < 6; ++i) EXPECT_FALSE(limit.take("a", kStart)) << i;
   EXPECT_EQ(limit.take("a", kStart), milliseconds(10000));
   EXPECT_EQ(limit.take("a", kStart + seconds(4)), milliseconds(6000));
@@ -21,29 +21,36 @@ TEST(RateLimit, AllowsSoManyAtOnceAndThenOneAfterEachShareOfAMinute) {
   EXPECT_TRUE(limit.take("a", kStart + seconds(10)));
 }
 
+TEST(RateLimit, AllowsMoreAtOnceThanInTheLongRun) {
+  RateLimit limit(3, milliseconds(20));
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(limit.take("a", kStart)) << i;
+  EXPECT_EQ(limit.take("a", kStart), milliseconds(20));
+  EXPECT_FALSE(limit.take("a", kStart + milliseconds(20)));
+}
+
 TEST(RateLimit, IsWholeAgainAfterAMinute) {
-  RateLimit limit(3);
+  RateLimit limit = RateLimit::per_minute(3);
   for (int i = 0; i < 3; ++i) limit.take("a", kStart);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(limit.take("a", kStart + minutes(1))) << i;
   EXPECT_TRUE(limit.take("a", kStart + minutes(1)));
 }
 
 TEST(RateLimit, CountsEachClientForItself) {
-  RateLimit limit(1);
+  RateLimit limit = RateLimit::per_minute(1);
   EXPECT_FALSE(limit.take("a", kStart));
   EXPECT_TRUE(limit.take("a", kStart));
   EXPECT_FALSE(limit.take("b", kStart));
 }
 
 TEST(RateLimit, DoesNotCountAQuestion) {
-  RateLimit limit(1);
+  RateLimit limit = RateLimit::per_minute(1);
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(limit.wait_of("a", kStart));
   limit.take("a", kStart);
   EXPECT_EQ(limit.wait_of("a", kStart), minutes(1));
 }
 
 TEST(RateLimit, StillLimitsTheNewestOfManyClients) {
-  RateLimit limit(1);
+  RateLimit limit = RateLimit::per_minute(1);
   for (int i = 0; i < 5000; ++i) {
     limit.take(std::to_string(i), kStart + milliseconds(i));
   }

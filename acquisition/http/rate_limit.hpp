@@ -5,16 +5,19 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/job/step_failure.hpp"
-
 namespace biotomy::acquisition {
 
-/// How often each client may do something: so many times at once, then again and again after an
-/// equal share of a minute (a token bucket). The number of clients that are remembered is bounded;
-/// who was not seen for longest is forgotten first. One thread uses it.
+/// How often each client may do something: so many times at once, then again and again after equal
+/// times (a token bucket). The number of clients that are remembered is bounded; who was not seen
+/// for longest is forgotten first. One thread uses it.
 class RateLimit {
  public:
-  explicit RateLimit(int per_minute);
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  RateLimit(int at_once, std::chrono::milliseconds each);
+
+  /// So many times at once, then again after equal shares of a minute.
+  static RateLimit per_minute(int times);
 
   /// Counts one more; nothing when it is allowed, else after how long it will be.
   std::optional<std::chrono::milliseconds> take(const std::string& client, TimePoint now);
@@ -25,7 +28,7 @@ class RateLimit {
  private:
   void forget_one(TimePoint now);
 
-  std::chrono::milliseconds share_;              ///< of a minute
+  std::chrono::milliseconds share_;              ///< until it may be done once more
   std::chrono::milliseconds patience_;           ///< all shares but the last
   std::map<std::string, TimePoint> paid_until_;  ///< when the client's bucket is full again
 };

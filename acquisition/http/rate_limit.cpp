@@ -1,4 +1,4 @@
-#include "acquisition/service/rate_limit.hpp"
+#include "acquisition/http/rate_limit.hpp"
 
 #include <algorithm>
 
@@ -10,8 +10,12 @@ constexpr std::size_t kMostClients = 1024;
 
 }  // namespace
 
-RateLimit::RateLimit(int per_minute)
-    : share_(kMinute / per_minute), patience_(share_ * (per_minute - 1)) {}
+RateLimit::RateLimit(int at_once, std::chrono::milliseconds each)
+    : share_(each), patience_(share_ * (at_once - 1)) {}
+
+RateLimit RateLimit::per_minute(int times) {
+  return {times, kMinute / times};
+}
 
 std::optional<std::chrono::milliseconds> RateLimit::take(const std::string& client, TimePoint now) {
   if (const auto wait = wait_of(client, now)) return wait;

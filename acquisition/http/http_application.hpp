@@ -1,0 +1,22 @@
+#pragma once
+
+#include "acquisition/http/message.hpp"
+
+namespace biotomy::acquisition {
+
+/// What an HttpServer serves. Many threads ask at once.
+class HttpApplication {
+ public:
+  HttpApplication() = default;
+  HttpApplication(const HttpApplication&) = delete;
+  HttpApplication& operator=(const HttpApplication&) = delete;
+  virtual ~HttpApplication() = default;
+
+  /// Which threads a request is for. It looks at the request alone, and at once.
+  virtual Lane lane(const ApiRequest& request) const = 0;
+
+  /// Never throws: what goes wrong is a response with {"error": {"code", "message"}}.
+  virtual ApiResponse answer(const ApiRequest& request) const = 0;
+};
+
+}  // namespace biotomy::acquisition

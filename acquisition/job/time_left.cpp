@@ -1,0 +1,40 @@
+#include "acquisition/job/time_left.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr std::size_t kMost = 20;
+constexpr std::size_t kFewest = 5;
+constexpr double kDeviations = 2.0;
+
+}  // namespace
+
+void TimeLeft::layer_done(TimePoint now) {
+  if (last_done_) {
+    durations_.push_back(std::chrono::duration<double>(now - *last_done_).count());
+    if (durations_.size() > kMost) durations_.pop_front();
+  }
+  last_done_ = now;
+}
+
+std::optional<TimeLeft::Range> TimeLeft::of(std::int64_t layers,
+                                            std::optional<double> estimate) const {
+  if (!estimate || durations_.size() < kFewest) return std::nullopt;
+  const auto known = static_cast<double>(durations_.size());
+  const double mean = std::accumulate(durations_.begin(), durations_.end(), 0.0) / known;
+  double squares = 0.0;
+  for (const double duration : durations_) squares += (duration - mean) * (duration - mean);
+  const double variance = squares / (known - 1.0);
+  // The layers to come scatter each by itself, and all of them with the mean that is known only
+  // from a few.
+  const auto n = static_cast<double>(layers);
+  const double spread = kDeviations * std::sqrt(variance * (n + n * n / known));
+  return Range{std::max(0.0, std::min(n * mean - spread, *estimate)),
+               std::max(n * mean + spread, *estimate)};
+}
+
+}  // namespace biotomy::acquisition

@@ -1,0 +1,90 @@
+#include "acquisition/service/event_source.hpp"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+#include <pthread.h>
+
+#include "acquisition/log.hpp"
+#include "acquisition/quality/metrics_json.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{200};
+constexpr int kLooksAtSample = 3;  // of which it takes one: files are looked at for it
+constexpr int kLooksAlive = 25;    // the same for the sign of life: every 5 s
+
+}  // namespace
+
+EventSource::EventSource(EventFeed& feed, EventSights sights)
+    : feed_(feed), sights_(std::move(sights)) {
+  if (sights_.attempts != nullptr) {
+    const auto known = sights_.attempts->last();
+    feed_.begin_after(known ? known->id : 0);
+  }
+  thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+}
+
+EventSource::~EventSource() {
+  thread_.request_stop();
+}
+
+void EventSource::watch(const std::stop_token& stop) {
+  ::pthread_setname_np(::pthread_self(), "events");
+  for (int look = 0; !stop.stop_requested(); ++look) {
+    try {
+      tell_state(sights_.status, "status", told_status_);
+      tell_attempts();
+      if (look % kLooksAtSample == 0) tell_state(sights_.sample, "sample", told_sample_);
+      complaint_.clear();
+    } catch (const std::exception& error) {
+      // A journal that is locked or being made: the next look may see it.
+      if (complaint_ != error.what()) log_warning("events", error.what());
+      complaint_ = error.what();
+    }
+    if (look % kLooksAlive == kLooksAlive - 1) feed_.tell_alive();
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, stop, kLook, [] { return false; });
+  }
+}
+
+void EventSource::tell_state(const std::function<std::string()>& sight, const char* name,
+                             std::string& told) {
+  if (!sight) return;
+  std::string seen = sight();
+  if (seen == told) return;
+  feed_.tell_state(name, name, seen);
+  told = std::move(seen);
+}
+
+void EventSource::tell_attempts() {
+  if (sights_.attempts == nullptr) return;
+  for (const AttemptNote& attempt : sights_.attempts->look()) {
+    feed_.tell(attempt.id, "attempt", attempt_json(attempt));
+  }
+}
+
+std::string attempt_json(const AttemptNote& attempt) {
+  const nlohmann::json json = {{"id", attempt.id},
+                               {"layer", attempt.layer},
+                               {"attempt", attempt.attempt},
+                               {"taken_at", attempt.taken_at},
+                               {"verdict", attempt.verdict},
+                               {"slug", attempt.slug},
+                               {"reason", attempt.reason},
+                               {"metrics", metrics_json(attempt.metrics)},
+                               {"column_um", attempt.column.value},
+                               {"file", attempt.file}};
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void tell_export(EventFeed& feed, const std::string& json) {
+  const nlohmann::json document = nlohmann::json::parse(json, nullptr, false);
+  if (!document.is_object() || !document.contains("id")) return;
+  feed.tell_state("export " + document["id"].dump(), "export", json, EventFeed::AtOnce::no);
+}
+
+}  // namespace biotomy::acquisition

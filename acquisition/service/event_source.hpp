@@ -1,0 +1,54 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "acquisition/http/event_feed.hpp"
+#include "acquisition/records/journal_rows.hpp"
+#include "acquisition/service/attempt_watch.hpp"
+
+namespace biotomy::acquisition {
+
+/// What an EventSource looks at. Each may be empty, and is called by the source's thread alone.
+struct EventSights {
+  std::function<std::string()> status;  ///< the JSON of the event `status`
+  std::function<std::string()> sample;  ///< the JSON of the event `sample`
+  AttemptWatch* attempts = nullptr;
+};
+
+/// Looks at the rig and the sample five times a second, with a thread of its own, and tells a feed
+/// what has changed. Nobody waits for it: not the control thread, whose status it only looks at.
+class EventSource {
+ public:
+  /// All outlive it.
+  EventSource(EventFeed& feed, EventSights sights);
+  ~EventSource();
+  EventSource(const EventSource&) = delete;
+  EventSource& operator=(const EventSource&) = delete;
+
+ private:
+  void watch(const std::stop_token& stop);
+  void tell_state(const std::function<std::string()>& sight, const char* name, std::string& told);
+  void tell_attempts();
+
+  EventFeed& feed_;
+  EventSights sights_;
+  std::string told_status_;
+  std::string told_sample_;
+  std::string complaint_;  ///< the last that was logged
+  std::mutex mutex_;
+  std::condition_variable_any woken_;
+  std::jthread thread_;
+};
+
+/// The JSON of the event `attempt`.
+std::string attempt_json(const AttemptNote& attempt);
+
+/// Tells a feed that an export has changed; `json` is the export's.
+void tell_export(EventFeed& feed, const std::string& json);
+
+}  // namespace biotomy::acquisition
