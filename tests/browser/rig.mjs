@@ -167,7 +167,7 @@ ${service}`,
   }
 
   async status() {
-    return (await this.ask("/api/v1/status")).json();
+    return (await this.ask("/api/v1/status", { token: this.token })).json();
   }
 
   async command(name, reason = "") {
