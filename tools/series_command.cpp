@@ -15,10 +15,10 @@
 #include "reconstruct/section/film.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section_image.hpp"
-#include "reconstruct/section/section_record.hpp"
 #include "reconstruct/section/series.hpp"
 #include "reconstruct/section/series_folder.hpp"
 #include "reconstruct/section/series_frames.hpp"
+#include "reconstruct/section/series_parameters.hpp"
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"
@@ -34,17 +34,10 @@ using reconstruct::OpenedSample;
 using reconstruct::SampleError;
 using reconstruct::Series;
 using reconstruct::SeriesFrames;
-using reconstruct::Vector3;
 
-/// As they were typed; what was not given is none.
-struct SeriesArguments {
+/// As they were typed.
+struct SeriesArguments : reconstruct::SeriesParameters {
   std::string sample;
-  std::string axis;
-  std::optional<std::string> normal;
-  std::optional<std::string> through;
-  std::optional<std::string> from;
-  std::optional<std::string> to;
-  std::string step;
   std::string output;
   std::optional<std::string> movie;
   std::string rate = "25";
@@ -54,67 +47,7 @@ struct SeriesArguments {
   PictureOptions picture;
 };
 
-Vector3 parse_axis(const std::string& text) {
-  if (text == "x") {
-    return {1.0, 0.0, 0.0};
-  }
-  if (text == "y") {
-    return {0.0, 1.0, 0.0};
-  }
-  if (text == "z") {
-    return {0.0, 0.0, 1.0};
-  }
-  if (text.find(',') == std::string::npos) {
-    throw InvalidRequest("--axis '" + text + "': give x, y, z or a direction a,b,c");
-  }
-  return reconstruct::parse_vector("--axis", text);
-}
-
-std::optional<Vector3> point(const std::optional<std::string>& text, const SectionChoices& chosen,
-                             const Vector3& spacing) {
-  if (!text) {
-    return std::nullopt;
-  }
-  return reconstruct::position_in_micrometres(reconstruct::parse_vector("--through", *text),
-                                              chosen.unit, spacing);
-}
-
-std::optional<double> length(const std::string& name, const std::optional<std::string>& text,
-                             const SectionChoices& chosen, const Vector3& spacing) {
-  if (!text) {
-    return std::nullopt;
-  }
-  return reconstruct::length_in_micrometres(reconstruct::parse_number(name, *text), chosen.unit,
-                                            spacing);
-}
-
-Series rotation(const SeriesArguments& arguments, const SectionChoices& chosen,
-                const reconstruct::Cuboid& cuboid) {
-  reconstruct::Rotation asked;
-  asked.axis = parse_axis(arguments.axis);
-  asked.through = point(arguments.through, chosen, cuboid.spacing);
-  if (arguments.normal) {
-    asked.normal = reconstruct::parse_vector("--normal", *arguments.normal);
-  }
-  asked.from = reconstruct::parse_number("--from", arguments.from.value_or("0"));
-  asked.to = reconstruct::parse_number("--to", arguments.to.value_or("180"));
-  asked.step = reconstruct::parse_number("--step", arguments.step);
-  return reconstruct::rotation_series(asked, chosen.basis, cuboid);
-}
-
-Series translation(const SeriesArguments& arguments, const SectionChoices& chosen,
-                   const reconstruct::Cuboid& cuboid) {
-  reconstruct::Translation asked;
-  asked.normal = reconstruct::parse_vector("--normal", arguments.normal.value_or(""));
-  asked.through = point(arguments.through, chosen, cuboid.spacing);
-  asked.from = length("--from", arguments.from, chosen, cuboid.spacing);
-  asked.to = length("--to", arguments.to, chosen, cuboid.spacing);
-  asked.step = *length("--step", arguments.step, chosen, cuboid.spacing);
-  return reconstruct::translation_series(asked, chosen.basis, cuboid);
-}
-
-using MakeSeries = Series (*)(const SeriesArguments&, const SectionChoices&,
-                              const reconstruct::Cuboid&);
+using ParseSeries = decltype(&reconstruct::parse_rotation);
 
 std::string extension_of(const SeriesArguments& arguments) {
   std::string extension = '.' + arguments.format;
@@ -157,23 +90,8 @@ nlohmann::ordered_json describe(const OpenedSample& sample, const SeriesFrames& 
           {"frames", list}};
 }
 
-/// What one frame's file says of it.
-reconstruct::PictureNotes notes_of(const SeriesFrames& frames, std::size_t index,
-                                   const OpenedSample& sample,
-                                   const reconstruct::SampleStatistics& statistics,
-                                   const nlohmann::ordered_json& parameters) {
-  const std::string& name = sample.folder.description().name;
-  const auto& outline = frames.outline(index);
-  if (!outline) {
-    return {frames.pixel(), name, ""};
-  }
-  return reconstruct::picture_notes({name, sample.volume.cuboid(),
-                                     frames.series().frames[index].plane, *outline,
-                                     frames.frame_size(), frames.first_pixel(index),
-                                     reconstruct::levels_read(statistics), parameters});
-}
-
-void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeSeries make_series) {
+void run_series(const SeriesArguments& arguments, const CLI::App& command,
+                ParseSeries parse_series) {
   const Interruption interruption;
   const SectionChoices chosen = choices(arguments.options);
   const double rate = reconstruct::parse_number("--rate", arguments.rate);
@@ -186,9 +104,9 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
   sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   reconstruct::VolumeBricks source(sample.volume, chosen.cache_bytes, chosen.damage, &sample.tail);
-  const SeriesFrames frames(source, make_series(arguments, chosen, cuboid),
-                            style_for(chosen, arguments.options, cuboid.spacing),
-                            !arguments.no_scale_bar);
+  const SeriesFrames frames(
+      source, parse_series("--", arguments, chosen.unit, chosen.basis, cuboid),
+      style_for(chosen, arguments.options, cuboid.spacing), !arguments.no_scale_bar);
   const nlohmann::ordered_json parameters = command_parameters(command);
   const std::vector<std::string> names = names_of(frames.series(), extension);
   const reconstruct::SeriesFolder folder(arguments.output,
@@ -211,9 +129,11 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command, MakeS
     if (!frame) {
       const reconstruct::SampledImage drawn = frames.draw(i);
       frame = drawn.image;
-      reconstruct::write_section_image(folder.frame_path(i), *frame,
-                                       notes_of(frames, i, sample, drawn.statistics, parameters),
-                                       quality);
+      reconstruct::write_section_image(
+          folder.frame_path(i), *frame,
+          reconstruct::frame_notes(frames, i, sample.folder.description().name, cuboid,
+                                   drawn.statistics, parameters),
+          quality);
     }
     if (film) {
       film->add(*frame);
@@ -264,7 +184,8 @@ void add_series_command(CLI::App& app) {
   rotate->add_option("--to", arguments->to, "Last angle, degrees; 180");
   rotate->add_option("--step", arguments->step, "Degrees between frames")->required();
   add_shared_options(*rotate, *arguments);
-  rotate->callback([arguments, rotate] { run_series(*arguments, *rotate, rotation); });
+  rotate->callback(
+      [arguments, rotate] { run_series(*arguments, *rotate, reconstruct::parse_rotation); });
 
   CLI::App* translate = command->add_subcommand("translate", "Moves the plane along its normal");
   translate->add_option("--normal", arguments->normal, "Of the planes, a,b,c")->required();
@@ -274,7 +195,9 @@ void add_series_command(CLI::App& app) {
   translate->add_option("--to", arguments->to, "Last offset; where the sample ends");
   translate->add_option("--step", arguments->step, "Distance between frames")->required();
   add_shared_options(*translate, *arguments);
-  translate->callback([arguments, translate] { run_series(*arguments, *translate, translation); });
+  translate->callback([arguments, translate] {
+    run_series(*arguments, *translate, reconstruct::parse_translation);
+  });
 }
 
 }  // namespace biotomy::tools

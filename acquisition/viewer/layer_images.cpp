@@ -1,6 +1,7 @@
 #include "acquisition/viewer/layer_images.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -196,7 +197,7 @@ ApiResponse LayerImages::kept_or_made(std::int64_t layer, const std::string& wha
 }
 
 ApiResponse LayerImages::image(std::int64_t layer, const ApiRequest& request) {
-  refuse_unknown(request.query, {"width"});
+  refuse_unknown(request.query, std::array<std::string_view, 1>{"width"});
   const auto width = static_cast<int>(
       number_in(request, "width", kWidest, 1, kWidest, "a width in pixels, 1 to 4096"));
   return kept_or_made(

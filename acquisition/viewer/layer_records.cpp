@@ -1,6 +1,7 @@
 #include "acquisition/viewer/layer_records.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -145,7 +146,7 @@ std::string LayerRecords::sha256(std::int64_t layer) const {
 }
 
 ApiResponse LayerRecords::list(const ApiRequest& request) const {
-  refuse_unknown(request.query, {"from", "limit"});
+  refuse_unknown(request.query, std::array<std::string_view, 2>{"from", "limit"});
   const std::int64_t from =
       number_in(request, "from", 1, 1, kLargestLayer, "a layer number, 1 to 999999");
   const std::int64_t limit = limit_of(request);
@@ -201,7 +202,7 @@ ApiResponse LayerRecords::layer(std::int64_t layer) const {
 }
 
 ApiResponse LayerRecords::rejected(const ApiRequest& request) const {
-  refuse_unknown(request.query, {"before", "limit"});
+  refuse_unknown(request.query, std::array<std::string_view, 2>{"before", "limit"});
   const std::int64_t before = number_in(request, "before", kLargestId, 1, kLargestId,
                                         "the id of an attempt, a number above 0");
   const std::int64_t limit = limit_of(request);
@@ -240,7 +241,7 @@ ApiResponse LayerRecords::rejected_picture(const std::string& name,
 }
 
 ApiResponse LayerRecords::history(const ApiRequest& request) const {
-  refuse_unknown(request.query, {"metrics", "after"});
+  refuse_unknown(request.query, std::array<std::string_view, 2>{"metrics", "after"});
   const auto asked = request.query.find("metrics");
   const std::vector<std::string> names =
       asked == request.query.end() ? std::vector<std::string>{} : names_in(asked->second);

@@ -19,7 +19,9 @@
 #include "acquisition/viewer/refusal.hpp"
 #include "acquisition/viewer/request_text.hpp"
 #include "acquisition/viewer/sample_json.hpp"
-#include "acquisition/viewer/section_pictures.hpp"
+#include "acquisition/viewer/section_task.hpp"
+#include "acquisition/viewer/series_pictures.hpp"
+#include "acquisition/viewer/volume_files.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/interruption.hpp"
 
@@ -29,6 +31,8 @@ namespace {
 constexpr const char* kApi = "/api/v1/";
 constexpr std::int64_t kLargestLayer = 999999;
 constexpr std::int64_t kLargestTile = 1'000'000;
+
+constexpr std::string_view kVolume = "/volume.ome.zarr/";
 
 /// The words of a path below kApi, or none of another one.
 std::vector<std::string> words_of(const std::string& path) {
@@ -40,6 +44,11 @@ std::vector<std::string> words_of(const std::string& path) {
     begin = slash + 1;
   }
   return words;
+}
+
+/// HEAD comes as GET.
+std::string methods_of(const std::string& path) {
+  return path.starts_with(kVolume) ? "GET, OPTIONS" : "GET";
 }
 
 [[noreturn]] void refuse_path(const std::string& path) {
@@ -60,18 +69,20 @@ struct SampleApi::State {
   ViewerSettings settings;
   mutable LiveSample live;
   mutable tbb::task_arena arena;
-  SectionPictures sections;
+  SeriesPictures series;
   LayerRecords records;
   mutable LayerImages images;
+  VolumeFiles volume;
 
   State(std::filesystem::path sample, ViewerSettings chosen)
       : settings(std::move(chosen)),
         live(std::move(sample), settings.cache_bytes),
         arena(threads_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
               tbb::task_arena::priority::low),
-        sections(live, arena),
+        series(live),
         records(live, settings.journal),
-        images(live, records, arena, settings.decoded_bytes) {}
+        images(live, records, arena, settings.decoded_bytes),
+        volume(live.folder() / "volume.ome.zarr", settings.neuroglancer) {}
 
   ApiResponse sample() const {
     const auto view = live.look();
@@ -101,6 +112,9 @@ struct SampleApi::State {
     if (!std::filesystem::exists(live.folder() / "sample.toml")) {
       throw Refusal(404, "there is no sample yet at " + live.folder().string());
     }
+    if (request.path.starts_with(kVolume)) {
+      return volume.answer(request.path.substr(kVolume.size()), request);
+    }
     const std::vector<std::string> words = words_of(request.path);
     const std::vector<std::string> rest(words.empty() ? words.begin() : words.begin() + 1,
                                         words.end());
@@ -108,9 +122,17 @@ struct SampleApi::State {
     if (first == "layers") return layers(rest, request);
     if (first == "rejected" && rest.empty()) return records.rejected(request);
     if (first == "rejected" && rest.size() == 1) return records.rejected_picture(rest[0], request);
-    if (first == "section" && rest.empty()) return sections.picture(request);
+    if (first == "section" && rest.empty()) {
+      return picture_of(section_task(live, request.query), request, arena);
+    }
     if (first == "section" && rest == std::vector<std::string>{"outline"}) {
-      return sections.outline(request);
+      return outline_of(section_task(live, request.query));
+    }
+    if (first == "series" && rest == std::vector<std::string>{"frames"}) {
+      return series.frames(request);
+    }
+    if (first == "series" && rest == std::vector<std::string>{"frame"}) {
+      return picture_of(series.frame_task(request.query), request, arena);
     }
     if (first == "sample" && rest.empty()) return sample();
     if (first == "history" && rest.empty()) return records.history(request);
@@ -124,8 +146,9 @@ SampleApi::SampleApi(std::filesystem::path sample, ViewerSettings settings)
 SampleApi::~SampleApi() = default;
 
 bool SampleApi::answers(const ApiRequest& request) const {
-  static constexpr std::array<std::string_view, 5> kFirst = {"sample", "layers", "rejected",
-                                                             "history", "section"};
+  static constexpr std::array<std::string_view, 6> kFirst = {"sample",  "layers",  "rejected",
+                                                             "history", "section", "series"};
+  if (request.path.starts_with(kVolume)) return true;
   const std::vector<std::string> words = words_of(request.path);
   return !words.empty() && std::find(kFirst.begin(), kFirst.end(), words[0]) != kFirst.end();
 }
@@ -145,10 +168,11 @@ bool SampleApi::is_command(const ApiRequest& request) {
 
 ApiResponse SampleApi::answer(const ApiRequest& request) const {
   try {
-    if (request.method != "GET") {
-      ApiResponse response =
-          error_response(405, request.path + " takes GET, not " + request.method);
-      response.headers["Allow"] = "GET";
+    const std::string allowed = methods_of(request.path);
+    if (allowed.find(request.method) == std::string::npos) {
+      ApiResponse response = error_response(
+          405, request.path + " takes " + allowed + ", not " + request.method.substr(0, 20));
+      response.headers["Allow"] = allowed;
       return response;
     }
     return state_->route(request);

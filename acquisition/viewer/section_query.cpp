@@ -24,15 +24,6 @@ constexpr int kLongestFit = 16384;
 constexpr double kShortOfAPixel = 0.01;
 constexpr int kDigitsOfPixel = 5;
 
-std::optional<std::string> optional_text(const Query& query, const std::string& name) {
-  const auto found = query.find(name);
-  return found == query.end() ? std::nullopt : std::optional(found->second);
-}
-
-void take(const Query& query, const std::string& name, std::string& text) {
-  if (const auto found = query.find(name); found != query.end()) text = found->second;
-}
-
 [[noreturn]] void refuse_fit(const std::string& text) {
   throw InvalidRequest("fit '" + reconstruct::excerpt(text) +
                        "': give WxH in pixels, each from 1 to " + std::to_string(kLongestFit));
@@ -79,25 +70,29 @@ std::vector<CommandOption> options_of(const SectionQuery& query) {
 
 }  // namespace
 
-void refuse_unknown(const Query& query, std::initializer_list<std::string_view> known) {
+void refuse_unknown(const Query& query, std::span<const std::string_view> known) {
   for (const auto& [name, value] : query) {
     if (name == "v" || name == "generation" ||
         std::find(known.begin(), known.end(), name) != known.end()) {
       continue;
     }
-    const std::string_view nearest =
-        reconstruct::nearest_word(name, std::span(known.begin(), known.size()));
+    const std::string_view nearest = reconstruct::nearest_word(name, known);
     throw InvalidRequest("there is no parameter '" + reconstruct::excerpt(name) + "'" +
                          (nearest.empty() ? "" : ": did you mean " + std::string(nearest) + "?"));
   }
 }
 
-SectionQuery section_query(const Query& query) {
-  refuse_unknown(query, {"points", "normal", "through", "unit", "basis", "theta", "interpolation",
-                         "pixel", "background", "format", "quality", "fit"});
+void take(const Query& query, const std::string& name, std::string& text) {
+  if (const auto found = query.find(name); found != query.end()) text = found->second;
+}
+
+void take(const Query& query, const std::string& name, std::optional<std::string>& text) {
+  if (const auto found = query.find(name); found != query.end()) text = found->second;
+}
+
+SectionQuery style_query(const Query& query, const std::string& background) {
   SectionQuery asked;
-  asked.plane = {optional_text(query, "points"), optional_text(query, "normal"),
-                 optional_text(query, "through")};
+  asked.parameters.background = background;
   take(query, "unit", asked.parameters.unit);
   take(query, "basis", asked.parameters.basis);
   take(query, "theta", asked.parameters.theta);
@@ -108,7 +103,21 @@ SectionQuery section_query(const Query& query) {
   take(query, "quality", asked.quality);
   format_of(asked.format);
   reconstruct::parse_quality("quality", asked.quality);
-  if (const auto fit = optional_text(query, "fit")) asked.fit = parse_fit(*fit);
+  std::optional<std::string> fit;
+  take(query, "fit", fit);
+  if (fit) asked.fit = parse_fit(*fit);
+  return asked;
+}
+
+SectionQuery section_query(const Query& query) {
+  static constexpr std::array<std::string_view, 12> kKnown = {
+      "points",        "normal", "through",    "unit",   "basis",   "theta",
+      "interpolation", "pixel",  "background", "format", "quality", "fit"};
+  refuse_unknown(query, kKnown);
+  SectionQuery asked = style_query(query, SectionParameters{}.background);
+  take(query, "points", asked.plane.points);
+  take(query, "normal", asked.plane.normal);
+  take(query, "through", asked.plane.through);
   return asked;
 }
 
@@ -121,19 +130,27 @@ reconstruct::SectionRequest section_request(const SectionQuery& query,
           reconstruct::section_style("", chosen, query.parameters, cuboid.spacing)};
 }
 
+double pixel_to_fit(const reconstruct::ThetaRectangle& rectangle, const cv::Size& fit) {
+  return std::max(rectangle.width / (fit.width - kShortOfAPixel),
+                  rectangle.height / (fit.height - kShortOfAPixel));
+}
+
+SectionQuery with_pixel(const SectionQuery& query, double least,
+                        const reconstruct::Vector3& spacing) {
+  const reconstruct::LengthUnit unit = reconstruct::parse_unit("unit", query.parameters.unit);
+  SectionQuery other = query;
+  other.parameters.pixel =
+      rounded_up(least / reconstruct::length_in_micrometres(1.0, unit, spacing));
+  return other;
+}
+
 SectionQuery fitted(const SectionQuery& query, const reconstruct::Cuboid& cuboid, int bits) {
   if (!query.fit) return query;
   reconstruct::SectionRequest request = section_request(query, cuboid);
   request.style.max_bytes = std::numeric_limits<std::int64_t>::max();
   const reconstruct::PixelGrid grid = reconstruct::outline_section(cuboid, bits, request).grid;
   if (grid.columns <= query.fit->width && grid.rows <= query.fit->height) return query;
-  const double least = std::max(grid.rectangle.width / (query.fit->width - kShortOfAPixel),
-                                grid.rectangle.height / (query.fit->height - kShortOfAPixel));
-  const reconstruct::LengthUnit unit = reconstruct::parse_unit("unit", query.parameters.unit);
-  SectionQuery smaller = query;
-  smaller.parameters.pixel =
-      rounded_up(least / reconstruct::length_in_micrometres(1.0, unit, cuboid.spacing));
-  return smaller;
+  return with_pixel(query, pixel_to_fit(grid.rectangle, *query.fit), cuboid.spacing);
 }
 
 PictureFormat format_of(const std::string& format) {

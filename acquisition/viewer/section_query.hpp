@@ -1,9 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -21,7 +21,11 @@ using Query = std::map<std::string, std::string>;
 
 /// Throws InvalidRequest for a name that is none of `known`, with the one that was probably meant.
 /// `v` and `generation`, with which pages make addresses differ, are always known.
-void refuse_unknown(const Query& query, std::initializer_list<std::string_view> known);
+void refuse_unknown(const Query& query, std::span<const std::string_view> known);
+
+/// Takes what a query says under `name`, if it does.
+void take(const Query& query, const std::string& name, std::string& text);
+void take(const Query& query, const std::string& name, std::optional<std::string>& text);
 
 /// What /section is asked for: the parameters of `biotomy section` under their names, and how the
 /// picture is to come.
@@ -36,9 +40,20 @@ struct SectionQuery {
 /// Throws InvalidRequest. What the texts mean is looked at later.
 SectionQuery section_query(const Query& query);
 
+/// The parameters of how a picture is drawn and sent, whatever its plane. Throws InvalidRequest.
+SectionQuery style_query(const Query& query, const std::string& background);
+
 /// As `biotomy section` understands it. Throws InvalidRequest.
 reconstruct::SectionRequest section_request(const SectionQuery& query,
                                             const reconstruct::Cuboid& cuboid);
+
+/// The least pixel, in micrometres, with which the rectangle has no more columns and rows.
+double pixel_to_fit(const reconstruct::ThetaRectangle& rectangle, const cv::Size& fit);
+
+/// The same query with a pixel of at least `least` micrometres: the next size that a person can
+/// read.
+SectionQuery with_pixel(const SectionQuery& query, double least,
+                        const reconstruct::Vector3& spacing);
 
 /// The same with a pixel as much larger as it takes to fit. Of the pixels that fit it is nearly the
 /// least, but one that a person can read. Throws what outline_section throws.

@@ -1,4 +1,4 @@
-#include "acquisition/viewer/section_pictures.hpp"
+#include "acquisition/viewer/section_task.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -1,0 +1,119 @@
+#include "acquisition/viewer/volume_files.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/acquisition/viewer/viewed_sample.hpp"
+
+namespace biotomy::acquisition {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kOrigin = "https://neuroglancer.example";
+
+TEST(AByteRange, IsWhatTheHeaderAsksForOrAll) {
+  const auto range = [](const char* header) { return byte_range(header, 100); };
+  EXPECT_EQ(range(""), (ByteRange{0, 100}));
+  EXPECT_EQ(range("bytes=0-0"), (ByteRange{0, 1}));
+  EXPECT_EQ(range("bytes=10-19"), (ByteRange{10, 10}));
+  EXPECT_EQ(range("bytes=90-"), (ByteRange{90, 10}));
+  EXPECT_EQ(range("bytes=90-999"), (ByteRange{90, 10}));
+  EXPECT_EQ(range("bytes=-10"), (ByteRange{90, 10}));
+  EXPECT_EQ(range("bytes=-1000"), (ByteRange{0, 100}));
+  EXPECT_EQ(range("bytes=100-"), std::nullopt);
+  EXPECT_EQ(range("bytes=-0"), std::nullopt);
+  for (const char* header : {"bytes=5-4", "bytes=0-1,5-6", "lines=1-2", "bytes=", "bytes=-",
+                             "bytes=a-b", "bytes=--1", "bytes=1-99999999999999999999"}) {
+    EXPECT_EQ(range(header), (ByteRange{0, 100})) << header;
+  }
+  EXPECT_EQ(byte_range("bytes=-5", 0), std::nullopt);
+}
+
+TEST(NamesOfAVolume, AreThoseOfItsStoreAlone) {
+  for (const char* name : {"zarr.json", "0/zarr.json", "12/c/0/1/2/3"}) {
+    EXPECT_TRUE(is_volume_name(name)) << name;
+  }
+  for (const char* name :
+       {"", "/", ".", "..", "../sample.toml", "0", "0/", "0/c", "0/c/0/1/2", "0/c/0/1/2/3/4",
+        "0/c/0/1/2/..", "c/0/0/0/0", "0//zarr.json", "0/c/zarr.json", "a/zarr.json", "0/c/0/0/0/-1",
+        ".zarr.json.123-1", "0/c/0/0/0/0000000000", "0/d/0/0/0/0"}) {
+    EXPECT_FALSE(is_volume_name(name)) << name;
+  }
+}
+
+class FilesOfAVolume : public ViewedSample {
+ protected:
+  FilesOfAVolume() {
+    add_layers(1, 40);
+    make_volume(40);
+  }
+
+  ApiResponse get(const std::string& name, const std::string& range = {},
+                  const std::string& origin = {}, const std::string& method = "GET") const {
+    return api_.answer(
+        {.method = method, .path = "/volume.ome.zarr/" + name, .origin = origin, .range = range});
+  }
+
+  SampleApi api_{sample_.path(), {.neuroglancer = kOrigin}};
+};
+
+TEST_F(FilesOfAVolume, AreGivenWholeAndInParts) {
+  const std::filesystem::path shard = sample_.volume_path() / "0/c/0/0/0/0";
+  const std::uint64_t size = std::filesystem::file_size(shard);
+  const ApiResponse whole = get("0/c/0/0/0/0");
+  ASSERT_EQ(whole.status, 200) << whole.body;
+  ASSERT_TRUE(whole.file);
+  EXPECT_EQ(whole.file->file, shard);
+  EXPECT_EQ(whole.file->bytes, size);
+  const ApiResponse part = get("0/c/0/0/0/0", "bytes=-20");
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.file->begin, size - 20);
+  EXPECT_EQ(part.file->bytes, 20U);
+  EXPECT_EQ(part.headers.at("Content-Range"), "bytes " + std::to_string(size - 20) + "-" +
+                                                  std::to_string(size - 1) + "/" +
+                                                  std::to_string(size));
+  const ApiResponse beyond = get("0/c/0/0/0/0", "bytes=" + std::to_string(size) + "-");
+  EXPECT_EQ(beyond.status, 416);
+  EXPECT_EQ(beyond.headers.at("Content-Range"), "bytes */" + std::to_string(size));
+  EXPECT_EQ(get("zarr.json").content_type, "application/json");
+}
+
+TEST_F(FilesOfAVolume, AreNotThereWhereTheVolumeHasNone) {
+  std::ofstream(folder_ / "secret") << "mine";
+  std::filesystem::create_symlink(folder_ / "secret", sample_.volume_path() / "0/c/0/0/0/9");
+  for (const char* name : {"0/c/0/0/0/9", "0/c/0/9/9/9", "../sample.toml", "9/zarr.json", ""}) {
+    const ApiResponse response = get(name);
+    EXPECT_EQ(response.status, 404) << name;
+    EXPECT_FALSE(response.file) << name;
+  }
+}
+
+TEST_F(FilesOfAVolume, AreForOneOtherOriginAlone) {
+  EXPECT_EQ(get("zarr.json", {}, kOrigin).headers.at("Access-Control-Allow-Origin"), kOrigin);
+  EXPECT_EQ(get("0/c/0/9/9/9", {}, kOrigin).headers.at("Access-Control-Allow-Origin"), kOrigin);
+  EXPECT_FALSE(get("zarr.json", {}, "https://other.example")
+                   .headers.contains("Access-Control-Allow-Origin"));
+  EXPECT_FALSE(get("zarr.json").headers.contains("Access-Control-Allow-Origin"));
+  const ApiResponse asked = get("zarr.json", {}, kOrigin, "OPTIONS");
+  EXPECT_EQ(asked.status, 204);
+  EXPECT_THAT(asked.headers.at("Access-Control-Allow-Headers"), HasSubstr("Range"));
+  EXPECT_FALSE(get("zarr.json", {}, "https://other.example", "OPTIONS")
+                   .headers.contains("Access-Control-Allow-Origin"));
+  EXPECT_EQ(get("zarr.json", {}, {}, "POST").status, 405);
+}
+
+TEST_F(FilesOfAVolume, AreNotSentTwice) {
+  const std::string etag = get("zarr.json").headers.at("ETag");
+  EXPECT_EQ(
+      api_.answer({.method = "GET", .path = "/volume.ome.zarr/zarr.json", .if_none_match = etag})
+          .status,
+      304);
+}
+
+}  // namespace
+}  // namespace biotomy::acquisition
