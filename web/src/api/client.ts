@@ -1,4 +1,7 @@
-import { askForToken, setToken, token } from "./token";
+import { askForToken, needsToken, setToken, token } from "./token";
+
+/** What anybody may ask: what this server is. */
+export const servicePath = "/api/v1/service";
 
 /** The server answered, and the answer was no. `message` is its sentence. */
 export class ApiError extends Error {
@@ -68,27 +71,37 @@ export async function errorOf(response: Response): Promise<ApiError> {
   }
 }
 
+const whyNeeded = "This needs the token that the rig’s computer keeps.";
+const whyAgain = "The token was not accepted.";
+
 /**
  * A request that succeeded; where a token is needed, the person is asked for it.
  * Throws ApiError, ConnectionError, or the AbortError of `options.signal`.
  */
 export async function request(path: string, options: RequestOptions = {}): Promise<Response> {
+  const isReading = (options.method ?? "GET") === "GET";
+  if (needsToken(isReading) && path !== servicePath) await tokenOr401(whyNeeded);
   const withToken = token();
   let response = await send(path, options);
   if (response.status === 401) {
     // Another request may have been given a token meanwhile.
     if (token() === withToken) {
       setToken("");
-      const why = withToken
-        ? "The token was not accepted."
-        : "This needs the token that the rig's computer keeps.";
-      if ((await askForToken(why)) === null) throw await errorOf(response);
+      await tokenOr401(withToken ? whyAgain : whyNeeded, await errorOf(response));
     }
     response = await send(path, options);
     if (response.status === 401) setToken("");
   }
   if (!response.ok) throw await errorOf(response);
   return response;
+}
+
+/** Throws when the person gives none. */
+async function tokenOr401(
+  why: string,
+  error = new ApiError(401, "unauthorized", "Without the token this can’t be done."),
+): Promise<void> {
+  if ((await askForToken(why)) === null) throw error;
 }
 
 export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T> {

@@ -27,6 +27,9 @@ export interface EventListener {
  * again whenever it ends, and told the last event that came, so that nothing is missed.
  */
 export class EventStream {
+  /** Date.now() when something was last heard, a comment included; 0 if nothing ever was. */
+  heardAt = 0;
+
   private lastId = "";
   private failures = 0;
   private connection: AbortController | null = null;
@@ -81,6 +84,7 @@ export class EventStream {
       const response = await request(this.path, { headers, signal: connection.signal });
       if (!response.body) throw new ConnectionError();
       heard();
+      this.heardAt = Date.now();
       this.failures = 0;
       this.listener.live();
       const parser = new EventParser(this.lastId);
@@ -89,6 +93,7 @@ export class EventStream {
         const { done, value } = await reader.read();
         if (done) break;
         heard();
+        this.heardAt = Date.now();
         for (const event of parser.push(value)) {
           this.lastId = event.id;
           this.listener.event(event);

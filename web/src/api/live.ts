@@ -1,8 +1,9 @@
 import { signal } from "@preact/signals";
 
-import { getJson, sentenceOf } from "./client";
+import { getJson, sentenceOf, servicePath } from "./client";
 import type { StreamEvent } from "./event_parser";
 import { EventStream } from "./events";
+import { setNeeds } from "./token";
 import type { Attempt, ExportJob, SampleProgress, Service, Status } from "./types";
 
 /** What the server tells without being asked, as it stands now. Each view reads it from here. */
@@ -15,12 +16,14 @@ export interface Connection {
   state: "connecting" | "live" | "lost";
   why: string; // it is lost
   since: number; // Date.now() when it came to this state
+  heardAt: number; // Date.now() when the server was last heard of; 0 if never
   retryAt: number; // Date.now() when it is tried again; 0 unless it is lost
 }
 export const connection = signal<Connection>({
   state: "connecting",
   why: "",
   since: Date.now(),
+  heardAt: 0,
   retryAt: 0,
 });
 
@@ -78,15 +81,15 @@ export function takeEvent(event: StreamEvent): void {
 
 const changed = (state: Connection["state"], why = "", retryAt = 0): void => {
   const since = connection.value.state === state ? connection.value.since : Date.now();
-  connection.value = { state, why, since, retryAt };
+  connection.value = { state, why, since, heardAt: stream.heardAt, retryAt };
 };
 
 const stream = new EventStream("/api/v1/events", {
   event: takeEvent,
   live() {
+    // After a loss the server may be another one than before: its version, its sample.
+    if (connection.value.state === "lost" || !service.value) void learnService();
     changed("live");
-    // The server may be another one than before: its version, its sample.
-    void learnService();
   },
   lost(why, retry_ms) {
     changed("lost", why, Date.now() + retry_ms);
@@ -95,11 +98,12 @@ const stream = new EventStream("/api/v1/events", {
 
 async function learnService(): Promise<void> {
   try {
-    const learnt = await getJson<Service>("/api/v1/service");
+    const learnt = await getJson<Service>(servicePath);
     if (service.value && service.value.version !== learnt.version) {
       location.reload(); // the page belongs to the server
       return;
     }
+    setNeeds({ reading: learnt.reading === "token", commands: learnt.commands_need_token });
     service.value = learnt;
   } catch (error) {
     if (connection.value.state !== "live") changed("lost", sentenceOf(error));
@@ -108,8 +112,8 @@ async function learnService(): Promise<void> {
 
 /** Begins to listen, and goes on until the page is closed. */
 export function goLive(): void {
-  void learnService();
-  stream.open();
+  // What the server is decides whether to ask for a token before anything else.
+  void learnService().then(() => stream.open());
   window.addEventListener("online", () => stream.hurry());
   document.addEventListener("visibilitychange", () => {
     if (document.visibilityState === "visible") stream.hurry();

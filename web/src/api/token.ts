@@ -17,14 +17,24 @@ function stored(): string {
 
 const held = signal(stored());
 
+export const token = (): string => held.value;
+
+/** For what the server wants a token. What is not known to need one is asked without. */
+let needs = { reading: false, commands: false };
+
+export const needsToken = (isReading: boolean): boolean =>
+  (isReading ? needs.reading : needs.commands) && token() === "";
+
+export function setNeeds(known: { reading: boolean; commands: boolean }): void {
+  needs = known;
+}
+
 /** Why a token is asked for, and what is called with the answer; null when none is. */
 export interface TokenQuestion {
   why: string;
   answer(token: string | null): void;
 }
 export const tokenQuestion = signal<TokenQuestion | null>(null);
-
-export const token = (): string => held.value;
 
 export function setToken(value: string): void {
   held.value = value;

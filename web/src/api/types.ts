@@ -102,7 +102,7 @@ export interface Status {
     found: boolean;
     why_not: string;
     actuator: string;
-    position: number;
+    position: string; // with its unit
     plane_um: number;
     frames: number;
   } | null;

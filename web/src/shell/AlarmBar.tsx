@@ -3,6 +3,7 @@ import { Button } from "../ui/Button";
 import { Switch } from "../ui/Switch";
 import { alarmKey, silence, silenced, soundBlocked, soundWanted, wantSound } from "./alarm_sound";
 import { askFor } from "./commands";
+import { capital } from "./capital";
 import { durationWords } from "./duration_words";
 import { now } from "./now";
 import { isStartLatch, wordsOf } from "./state_words";
@@ -17,10 +18,7 @@ export function AlarmBar() {
     <section class="alarm-bar" data-kind={isStart ? "start" : "alarm"} aria-label="Alarm">
       <AlarmSign />
       <div role="alert">
-        <p class="alarm-cause">
-          {isStart ? "" : "Alarm: "}
-          {cause}
-        </p>
+        <p class="alarm-cause">{isStart ? capital(cause) : `Alarm: ${cause}`}</p>
         {advice && <p class="alarm-advice">{advice}</p>}
         <p class="alarm-since">
           {isStart ? "" : `While the rig was ${wordsOf(state).short.toLowerCase()}, `}

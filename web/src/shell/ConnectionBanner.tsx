@@ -19,7 +19,7 @@ export function ConnectionBanner() {
         <>
           <strong>Connection lost</strong>
           <span>
-            {why} What is shown is from before. <LostFor since={since} retryAt={retryAt} />
+            {why} <LostFor since={since} retryAt={retryAt} />
           </span>
           <Button onClick={reconnect}>Try now</Button>
         </>

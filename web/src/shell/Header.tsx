@@ -1,8 +1,8 @@
-import { service, status } from "../api/live";
+import { connection, service, status } from "../api/live";
 import { fixed } from "../ui/numbers";
 import { route } from "./route";
 import { sampleName } from "./sample_name";
-import { wordsOf } from "./state_words";
+import { isStartLatch, moodOf, wordsOf } from "./state_words";
 
 const views = [
   { name: "run", label: "Run" },
@@ -34,11 +34,12 @@ export function Header() {
 function HeaderState() {
   const now = status.value;
   if (!now) return null;
-  const { short, mood } = wordsOf(now.state);
+  const short = isStartLatch(now) ? "Switched on" : wordsOf(now.state).short;
+  const lost = connection.value.state === "lost";
   return (
-    <div class="head-state" data-mood={now.alarm ? "alarm" : mood} data-state={now.state}>
+    <div class="head-state" data-mood={lost ? "unknown" : moodOf(now)} data-state={now.state}>
       <span class="head-state-dot" aria-hidden="true" />
-      <span>{short}</span>
+      <span>{lost ? `Was: ${short}` : short}</span>
       {now.layers > 0 && (
         <span class="head-layer">
           {fixed(now.committed)} of {fixed(now.layers)} layers

@@ -23,8 +23,10 @@ export function Shell() {
         Skip to the content
       </a>
       <Header />
-      <ConnectionBanner />
-      <AlarmBar />
+      <div class="bars">
+        <ConnectionBanner />
+        <AlarmBar />
+      </div>
       <CurrentView />
       <CommandDialog />
       <TokenDialog />
@@ -47,9 +49,9 @@ function CurrentView() {
     if (!known && kind) replaceHash(kind === "view" ? "#/explorer" : "#/run");
   }, [known, kind]);
 
-  if (name === "layers") return <LazyView load={layers} />;
-  if (name === "explorer") return <LazyView load={explorer} />;
-  if (name === "run" && kind !== "view") return <RunView />;
+  if (kind && name === "layers") return <LazyView load={layers} />;
+  if (kind && name === "explorer") return <LazyView load={explorer} />;
+  if (kind === "rig" && name === "run") return <RunView />;
   return (
     <main id="main" class="view" tabIndex={-1}>
       <p class="muted">

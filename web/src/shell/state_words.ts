@@ -101,3 +101,9 @@ export function stateSentence(status: Status): string {
   }
   return sentence;
 }
+
+/** An alarm comes before what the job does; the latch of the start is none. */
+export function moodOf(status: Status): Mood {
+  if (isStartLatch(status)) return "waiting";
+  return status.alarm ? "alarm" : wordsOf(status.state).mood;
+}

@@ -7,12 +7,12 @@ export type MaybeNumber = number | null | undefined;
 const isNumber = (value: MaybeNumber): value is number =>
   typeof value === "number" && Number.isFinite(value);
 
-/** With so many decimals, thousands apart by a thin space, and a true minus sign. */
+/** With so many decimals, thousands apart by a narrow space that doesn't break, and a true minus sign. */
 export function fixed(value: MaybeNumber, decimals = 0): string {
   if (!isNumber(value)) return dash;
   const text = Math.abs(value).toFixed(decimals);
   const [whole, fraction] = text.split(".");
-  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u2009") : whole;
+  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u202f") : whole;
   const sign = value < 0 && Number(text) !== 0 ? "−" : "";
   return sign + grouped + (fraction ? `.${fraction}` : "");
 }
@@ -24,6 +24,10 @@ export function significant(value: MaybeNumber, digits = 3): string {
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
   return fixed(value, Math.min(8, Math.max(0, digits - 1 - magnitude)));
 }
+
+/** How many decimals a round number has, such as the step between an axis's lines. */
+export const decimalsOf = (step: number): number =>
+  Math.min(8, String(Number(step.toPrecision(6))).split(".")[1]?.length ?? 0);
 
 /** Its unit is parted by a space that doesn't break. */
 export const withUnit = (text: string, unit: string): string =>

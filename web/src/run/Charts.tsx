@@ -1,0 +1,40 @@
+import { decimalsOf, fixed, micrometres, percent } from "../ui/numbers";
+import { LayerChart } from "./LayerChart";
+
+const ratio = (value: number | null) => fixed(value, 3);
+const change = (value: number | null) => percent(value === null ? null : value * 100, 1);
+const place = (value: number | null) => micrometres(value, 1);
+
+const plainTick = (value: number, step: number) => fixed(value, decimalsOf(step));
+const changeTick = (value: number, step: number) => percent(value * 100, decimalsOf(step * 100));
+
+export function Charts() {
+  return (
+    <section class="charts" aria-label="Over layers">
+      <LayerChart
+        name="sharpness_ratio"
+        title="Sharpness"
+        about="against the layer’s focus or the last layers; 1 is as sharp"
+        limit="least"
+        text={ratio}
+        tick={plainTick}
+      />
+      <LayerChart
+        name="brightness"
+        title="Brightness"
+        about="change against the last layers"
+        limit="either_way"
+        text={change}
+        tick={changeTick}
+      />
+      <LayerChart
+        name="column_um"
+        title="Focus position"
+        about="of the column, in µm"
+        limit="none"
+        text={place}
+        tick={plainTick}
+      />
+    </section>
+  );
+}

@@ -1,0 +1,28 @@
+import { hashOf } from "../shell/route";
+import { fixed } from "../ui/numbers";
+import { rejectedCount, rejectedOfLate } from "./run_history";
+
+/** The last frames that were not good enough, and the way to them. */
+export function RejectedList() {
+  const count = rejectedCount.value;
+  const shown = rejectedOfLate.value;
+  return (
+    <section class="rejected" aria-label="Rejected photographs">
+      <h2>Rejected photographs: {fixed(count)}</h2>
+      {shown.length === 0 ? (
+        <p class="muted">Every photograph so far was good enough.</p>
+      ) : (
+        <ol class="rejected-list">
+          {shown.map(({ id, layer, attempt, reason, slug }) => (
+            <li key={id}>
+              <a href={hashOf(["layers", layer])}>
+                Layer {fixed(layer)}, attempt {attempt}
+              </a>{" "}
+              {reason || slug}
+            </li>
+          ))}
+        </ol>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,95 @@
+import type { Attempt, History } from "../api/types";
+
+/** Whether a frame was not taken for the layer. */
+export const isRejected = (verdict: string): boolean =>
+  verdict === "rejected" || verdict === "not_stored";
+
+/** Of a metric, or of the focus position: a value for each attempt, and what it was held against. */
+export interface Column {
+  value: (number | null)[];
+  limit: (number | null)[];
+}
+
+/** A rejected attempt, to be listed. */
+export interface RejectedNote {
+  id: number;
+  layer: number;
+  attempt: number;
+  slug: string;
+  reason: string;
+}
+
+/**
+ * All attempts of the job as columns, in the order in which they were made: what was fetched, and
+ * then what the event stream told.
+ */
+export class AttemptHistory {
+  last = 0; // id of the last attempt
+  readonly layer: number[] = [];
+  readonly rejected: boolean[] = [];
+  readonly columns = new Map<string, Column>();
+  rejectedCount = 0;
+  /** Of those that came while one was looking; the newest first, no more than twenty. */
+  readonly rejectedOfLate: RejectedNote[] = [];
+
+  /** `metrics`: which are kept. */
+  constructor(readonly metrics: readonly string[]) {
+    for (const name of [...metrics, "column_um"]) this.columns.set(name, { value: [], limit: [] });
+  }
+
+  get length(): number {
+    return this.layer.length;
+  }
+
+  column(name: string): Column {
+    return this.columns.get(name) ?? { value: [], limit: [] };
+  }
+
+  /** Adds what was fetched, apart from what is here already. */
+  load(history: History): void {
+    history.id.forEach((id, row) => {
+      if (id <= this.last) return;
+      this.add(id, history.layer[row], history.verdict[row], history.column_um[row], (name) => {
+        const column = history.metrics[name];
+        return [column?.value[row] ?? null, column?.limit[row] ?? null];
+      });
+    });
+  }
+
+  /** False when it is here already. */
+  append(attempt: Attempt): boolean {
+    if (attempt.id <= this.last) return false;
+    this.add(attempt.id, attempt.layer, attempt.verdict, attempt.column_um, (name) => {
+      const metric = attempt.metrics.find((candidate) => candidate.name === name);
+      return [metric?.value ?? null, metric?.limit ?? null];
+    });
+    if (isRejected(attempt.verdict)) {
+      const { id, layer, slug, reason } = attempt;
+      this.rejectedOfLate.unshift({ id, layer, attempt: attempt.attempt, slug, reason });
+      this.rejectedOfLate.splice(20);
+    }
+    return true;
+  }
+
+  private add(
+    id: number,
+    layer: number,
+    verdict: string,
+    column_um: number | null,
+    metric: (name: string) => [number | null, number | null],
+  ): void {
+    this.last = id;
+    this.layer.push(layer);
+    const rejected = isRejected(verdict);
+    this.rejected.push(rejected);
+    if (rejected) this.rejectedCount += 1;
+    for (const name of this.metrics) this.push(name, ...metric(name));
+    this.push("column_um", column_um, null);
+  }
+
+  private push(name: string, value: number | null, limit: number | null): void {
+    const column = this.column(name);
+    column.value.push(value);
+    column.limit.push(limit);
+  }
+}

@@ -1,0 +1,42 @@
+import type { AttemptHistory } from "./attempt_history";
+
+/** Which way a limit counts. */
+export type LimitKind = "least" | "most" | "either_way" | "none";
+
+/**
+ * For a chart over layers, as uPlot takes it: layers, accepted values, rejected values, the limit,
+ * and the limit on the other side where it counts either way. Attempts keep their order; a layer
+ * that was tried twice stands there twice.
+ */
+export type ChartData = (number | null)[][];
+
+export function chartData(history: AttemptHistory, name: string, kind: LimitKind): ChartData {
+  const { value, limit } = history.column(name);
+  const accepted = value.map((one, row) => (history.rejected[row] ? null : one));
+  const rejected = value.map((one, row) => (history.rejected[row] ? one : null));
+  const data: ChartData = [[...history.layer], accepted, rejected];
+  if (kind !== "none") data.push(limit);
+  if (kind === "either_way") data.push(limit.map((one) => (one === null ? null : -one)));
+  return data;
+}
+
+/** The first row whose layer is not below `layer`; `layers` is in growing order. */
+export function firstRowFrom(layers: ArrayLike<number>, layer: number): number {
+  let low = 0;
+  let high = layers.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (layers[middle] < layer) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** The last value that there is. */
+export function lastOf(values: readonly (number | null)[]): number | null {
+  for (let row = values.length - 1; row >= 0; row -= 1) {
+    const value = values[row];
+    if (value !== null && value !== undefined) return value;
+  }
+  return null;
+}
