@@ -1,7 +1,40 @@
+import { useSignal } from "@preact/signals";
+import { useMemo } from "preact/hooks";
+
+import "./explorer.css";
+import { CuboidView } from "./CuboidView";
+import { ExplorerState } from "./explorer_state";
+import { PlaneControls } from "./PlaneControls";
+import { SectionControls } from "./SectionControls";
+import { SectionStatus } from "./SectionStatus";
+import { SectionToolbar } from "./SectionToolbar";
+import { SectionTools } from "./section_tools";
+import { SectionView } from "./SectionView";
+import { useLink } from "./use_link";
+import { useSample } from "./use_sample";
+import { useSection } from "./use_section";
+
+/** The block, a plane in it, and the section that the plane cuts. */
 export function ExplorerView() {
+  const state = useMemo(() => new ExplorerState(), []);
+  const tools = useMemo(() => new SectionTools(), []);
+  const exporting = useSignal(false);
+  useLink(state);
+  useSample(state);
+  useSection(state);
   return (
-    <main id="main" class="view" data-view="explorer" tabIndex={-1}>
-      <h1>Explorer</h1>
+    <main id="main" class="view explorer" data-view="explorer" tabIndex={-1}>
+      <h1 class="visually-hidden">Explorer</h1>
+      <CuboidView state={state} />
+      <div class="section-column">
+        <SectionToolbar state={state} tools={tools} onExport={() => (exporting.value = true)} />
+        <SectionView state={state} tools={tools} />
+        <SectionStatus state={state} tools={tools} />
+      </div>
+      <div class="explorer-controls">
+        <PlaneControls state={state} />
+        <SectionControls state={state} tools={tools} />
+      </div>
     </main>
   );
 }
