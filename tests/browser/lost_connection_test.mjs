@@ -57,8 +57,8 @@ test("the run goes on, and the page follows it to its end", async () => {
   // The controller stopped its wheel when its master fell silent: an operator sees to it.
   await rig.takeUpAgain();
   await page.locator('header [data-state="done"]').waitFor({ timeout: 240_000 });
-  const progress = page.locator("main [role=progressbar]");
-  assert.equal(Number(await progress.getAttribute("aria-valuenow")), rig.layers);
+  const progress = page.getByRole("progressbar");
+  assert.equal(await progress.evaluate(({ value }) => value), rig.layers);
 });
 
 test("nothing but the loss was complained of", () =>

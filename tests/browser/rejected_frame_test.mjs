@@ -27,11 +27,7 @@ test("the rejected ones are marked in the strip, and can be had alone", async ()
   const { page } = tab;
   await tab.visit(rig.url, "#/layers");
   await inStrip(rig.layers).first().waitFor();
-  await page
-    .getByRole("radio", { name: /rejected/i })
-    .or(page.getByRole("button", { name: /rejected/i }))
-    .first()
-    .click();
+  await page.getByRole("radio", { name: "Rejected" }).check();
   await inStrip(4).first().waitFor();
   assert.equal(await inStrip(4).first().getAttribute("data-verdict"), "rejected");
   assert.equal(await inStrip(2).count(), 0, "layer 2 had no rejected frame");
@@ -55,11 +51,19 @@ test("each attempt at its layer has its verdict, its reason and its metrics", as
 test("rejected and accepted frame are seen side by side", async () => {
   const { page } = tab;
   const { attempts } = await (await rig.ask("/api/v1/layers/4")).json();
-  for (const verdict of ["rejected", "accepted"]) {
-    const { attempt } = attempts.find((one) => one.verdict === verdict);
-    const image = page.locator(`[data-role="attempt-image"][data-attempt="${attempt}"]`).first();
-    await image.and(page.locator('[data-state="shown"]')).waitFor();
+  const { attempt } = attempts.find(({ verdict }) => verdict === "rejected");
+  await page.locator(`button[data-attempt="${attempt}"]`).click();
+  const rejected = page.locator(
+    `[data-role="attempt-image"][data-attempt="${attempt}"][data-state="shown"]`,
+  );
+  const accepted = page.locator('[data-role="layer"][data-layer="4"][data-state="sharp"]');
+  await rejected.waitFor();
+  await accepted.waitFor();
+  for (const picture of [rejected, accepted]) {
+    assert.ok(colours(await pixelsOf(picture)) > 100, "a picture is one of nothing");
   }
+  const [left, right] = [await accepted.boundingBox(), await rejected.boundingBox()];
+  assert.ok(left.x + left.width <= right.x, "they are not side by side");
 });
 
 test("the layer is shown sharp, with the map of its sharpness over it when asked", async () => {
@@ -74,6 +78,7 @@ test("the layer is shown sharp, with the map of its sharpness over it when asked
 
 test("any layer has a link, and the keys lead from one to the next", async () => {
   const { page } = tab;
+  await page.getByRole("radio", { name: "All" }).check();
   await page.goto(`${rig.url}/#/layers/7`);
   await page.locator('canvas[data-role="layer"][data-layer="7"]').waitFor();
   await page.locator('[data-role="strip"]').focus();
