@@ -69,7 +69,6 @@ void read_foreigners(const CheckedTable& table, ServiceConfiguration& service) {
                                      "path");
   }
   service.http.guard.neuroglancer_origin = neuroglancer;
-  service.viewer.neuroglancer = neuroglancer;
 }
 
 void read_bounds(const CheckedTable& table, ServiceConfiguration& service) {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/quality/metrics_json.hpp"
-#include "acquisition/viewer/attempt_json.hpp"
-#include "acquisition/viewer/file_version.hpp"
+#include "acquisition/viewer/attempt_document.hpp"
+#include "acquisition/viewer/file_response.hpp"
 #include "acquisition/viewer/refusal.hpp"
 #include "acquisition/viewer/request_text.hpp"
 #include "acquisition/viewer/section_query.hpp"
@@ -77,7 +77,7 @@ bool is_kept(const SampleFolder& sample, const std::string& file) {
 /// With the address of its picture, if there is one.
 ordered_json with_image(const AttemptNote& note, const SampleFolder& sample,
                         const LayerRow* layer) {
-  ordered_json document = attempt_json(note);
+  ordered_json document = attempt_document(note);
   if (is_kept(sample, note.file)) {
     document["image"] = "/api/v1/rejected/" + note.file.substr(kRejected.size());
   } else if (layer != nullptr && layer->attempt == note.attempt) {
@@ -231,12 +231,8 @@ ApiResponse LayerRecords::rejected_picture(const std::string& name,
   if (!is_kept(sample, std::string(kRejected) + name)) {
     throw Refusal(404, "the picture of that frame is not kept any more: only the newest are");
   }
-  const fs::path file = sample.rejected_path() / name;
-  const std::string etag = '"' + file_version(file) + '"';
-  if (has_already(request, etag)) return not_modified(etag);
-  ApiResponse response{.status = 200, .content_type = "image/jpeg", .headers = {{"ETag", etag}}};
+  ApiResponse response = file_response(request, sample.rejected_path() / name, "image/jpeg");
   response.headers["Cache-Control"] = "private, max-age=3600";
-  response.file = FilePart{file, 0, fs::file_size(file)};
   return response;
 }
 

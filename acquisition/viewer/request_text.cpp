@@ -30,10 +30,4 @@ bool has_already(const ApiRequest& request, const std::string& etag) {
   return known == "*" || known.find(etag) != std::string::npos;
 }
 
-ApiResponse not_modified(const std::string& etag) {
-  ApiResponse response{.status = 304, .body = {}};
-  response.headers["ETag"] = etag;
-  return response;
-}
-
 }  // namespace biotomy::acquisition

@@ -22,7 +22,4 @@ std::int64_t number_in(const ApiRequest& request, const std::string& name, std::
 /// Whether the client has exactly this content already.
 bool has_already(const ApiRequest& request, const std::string& etag);
 
-/// 304 with the tag.
-ApiResponse not_modified(const std::string& etag);
-
 }  // namespace biotomy::acquisition

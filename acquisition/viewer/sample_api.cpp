@@ -46,11 +46,6 @@ std::vector<std::string> words_of(const std::string& path) {
   return words;
 }
 
-/// HEAD comes as GET.
-std::string methods_of(const std::string& path) {
-  return path.starts_with(kVolume) ? "GET, OPTIONS" : "GET";
-}
-
 [[noreturn]] void refuse_path(const std::string& path) {
   throw Refusal(404, "there is no " + path);
 }
@@ -82,7 +77,7 @@ struct SampleApi::State {
         series(live),
         records(live, settings.journal),
         images(live, records, arena, settings.decoded_bytes),
-        volume(live.folder() / "volume.ome.zarr", settings.neuroglancer) {}
+        volume(live.folder() / "volume.ome.zarr") {}
 
   ApiResponse sample() const {
     const auto view = live.look();
@@ -163,16 +158,15 @@ Lane SampleApi::lane(const ApiRequest& request) {
 }
 
 bool SampleApi::is_command(const ApiRequest& request) {
-  return request.method != "GET" && request.method != "OPTIONS";
+  return request.method != "GET";
 }
 
 ApiResponse SampleApi::answer(const ApiRequest& request) const {
   try {
-    const std::string allowed = methods_of(request.path);
-    if (allowed.find(request.method) == std::string::npos) {
-      ApiResponse response = error_response(
-          405, request.path + " takes " + allowed + ", not " + request.method.substr(0, 20));
-      response.headers["Allow"] = allowed;
+    if (request.method != "GET") {
+      ApiResponse response =
+          error_response(405, request.path + " takes GET, not " + request.method);
+      response.headers["Allow"] = "GET";
       return response;
     }
     return state_->route(request);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include "acquisition/records/journal_reader.hpp"
 
@@ -14,7 +13,6 @@ struct ViewerSettings {
   int threads = 0;                          ///< that sample one section; 0: half of the processors
   /// Whether somebody may write the sample's journal meanwhile.
   JournalReader::Journal journal = JournalReader::Journal::in_use;
-  std::string neuroglancer = {};  ///< the one origin that may read the volume; empty: none
 };
 
 }  // namespace biotomy::acquisition

@@ -2,37 +2,14 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "tests/acquisition/viewer/viewed_sample.hpp"
 
 namespace biotomy::acquisition {
 namespace {
-
-using testing::HasSubstr;
-
-constexpr const char* kOrigin = "https://neuroglancer.example";
-
-TEST(AByteRange, IsWhatTheHeaderAsksForOrAll) {
-  const auto range = [](const char* header) { return byte_range(header, 100); };
-  EXPECT_EQ(range(""), (ByteRange{0, 100}));
-  EXPECT_EQ(range("bytes=0-0"), (ByteRange{0, 1}));
-  EXPECT_EQ(range("bytes=10-19"), (ByteRange{10, 10}));
-  EXPECT_EQ(range("bytes=90-"), (ByteRange{90, 10}));
-  EXPECT_EQ(range("bytes=90-999"), (ByteRange{90, 10}));
-  EXPECT_EQ(range("bytes=-10"), (ByteRange{90, 10}));
-  EXPECT_EQ(range("bytes=-1000"), (ByteRange{0, 100}));
-  EXPECT_EQ(range("bytes=100-"), std::nullopt);
-  EXPECT_EQ(range("bytes=-0"), std::nullopt);
-  for (const char* header : {"bytes=5-4", "bytes=0-1,5-6", "lines=1-2", "bytes=", "bytes=-",
-                             "bytes=a-b", "bytes=--1", "bytes=1-99999999999999999999"}) {
-    EXPECT_EQ(range(header), (ByteRange{0, 100})) << header;
-  }
-  EXPECT_EQ(byte_range("bytes=-5", 0), std::nullopt);
-}
 
 TEST(NamesOfAVolume, AreThoseOfItsStoreAlone) {
   for (const char* name : {"zarr.json", "0/zarr.json", "12/c/0/1/2/3"}) {
@@ -53,13 +30,9 @@ class FilesOfAVolume : public ViewedSample {
     make_volume(40);
   }
 
-  ApiResponse get(const std::string& name, const std::string& range = {},
-                  const std::string& origin = {}, const std::string& method = "GET") const {
-    return api_.answer(
-        {.method = method, .path = "/volume.ome.zarr/" + name, .origin = origin, .range = range});
+  ApiResponse get(const std::string& name, const std::string& range = {}) const {
+    return api_.answer({.method = "GET", .path = "/volume.ome.zarr/" + name, .range = range});
   }
-
-  SampleApi api_{sample_.path(), {.neuroglancer = kOrigin}};
 };
 
 TEST_F(FilesOfAVolume, AreGivenWholeAndInParts) {
@@ -91,20 +64,6 @@ TEST_F(FilesOfAVolume, AreNotThereWhereTheVolumeHasNone) {
     EXPECT_EQ(response.status, 404) << name;
     EXPECT_FALSE(response.file) << name;
   }
-}
-
-TEST_F(FilesOfAVolume, AreForOneOtherOriginAlone) {
-  EXPECT_EQ(get("zarr.json", {}, kOrigin).headers.at("Access-Control-Allow-Origin"), kOrigin);
-  EXPECT_EQ(get("0/c/0/9/9/9", {}, kOrigin).headers.at("Access-Control-Allow-Origin"), kOrigin);
-  EXPECT_FALSE(get("zarr.json", {}, "https://other.example")
-                   .headers.contains("Access-Control-Allow-Origin"));
-  EXPECT_FALSE(get("zarr.json").headers.contains("Access-Control-Allow-Origin"));
-  const ApiResponse asked = get("zarr.json", {}, kOrigin, "OPTIONS");
-  EXPECT_EQ(asked.status, 204);
-  EXPECT_THAT(asked.headers.at("Access-Control-Allow-Headers"), HasSubstr("Range"));
-  EXPECT_FALSE(get("zarr.json", {}, "https://other.example", "OPTIONS")
-                   .headers.contains("Access-Control-Allow-Origin"));
-  EXPECT_EQ(get("zarr.json", {}, {}, "POST").status, 405);
 }
 
 TEST_F(FilesOfAVolume, AreNotSentTwice) {

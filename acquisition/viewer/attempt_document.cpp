@@ -1,10 +1,10 @@
-#include "acquisition/viewer/attempt_json.hpp"
+#include "acquisition/viewer/attempt_document.hpp"
 
 #include "acquisition/quality/metrics_json.hpp"
 
 namespace biotomy::acquisition {
 
-nlohmann::ordered_json attempt_json(const AttemptNote& note) {
+nlohmann::ordered_json attempt_document(const AttemptNote& note) {
   return {{"id", note.id},
           {"layer", note.layer},
           {"attempt", note.attempt},
