@@ -80,14 +80,15 @@ const whyAgain = "The token was not accepted.";
  */
 export async function request(path: string, options: RequestOptions = {}): Promise<Response> {
   const isReading = (options.method ?? "GET") === "GET";
-  if (needsToken(isReading) && path !== servicePath) await tokenOr401(whyNeeded);
+  if (needsToken(isReading) && path !== servicePath) await tokenOr401(whyNeeded, !isReading);
   const withToken = token();
   let response = await send(path, options);
   if (response.status === 401) {
     // Another request may have been given a token meanwhile.
     if (token() === withToken) {
       setToken("");
-      await tokenOr401(withToken ? whyAgain : whyNeeded, await errorOf(response));
+      const error = await errorOf(response);
+      await tokenOr401(withToken ? whyAgain : whyNeeded, !isReading, error);
     }
     response = await send(path, options);
     if (response.status === 401) setToken("");
@@ -99,9 +100,10 @@ export async function request(path: string, options: RequestOptions = {}): Promi
 /** Throws when the person gives none. */
 async function tokenOr401(
   why: string,
+  insist: boolean,
   error = new ApiError(401, "unauthorized", "Without the token this can’t be done."),
 ): Promise<void> {
-  if ((await askForToken(why)) === null) throw error;
+  if ((await askForToken(why, insist)) === null) throw error;
 }
 
 export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T> {

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import { getJson, sentenceOf, servicePath } from "./client";
 import type { StreamEvent } from "./event_parser";
 import { EventStream } from "./events";
-import { setNeeds } from "./token";
+import { askAgain, setNeeds } from "./token";
 import type { Attempt, ExportJob, SampleProgress, Service, Status } from "./types";
 
 /** What the server tells without being asked, as it stands now. Each view reads it from here. */
@@ -120,5 +120,8 @@ export function goLive(): void {
   });
 }
 
-/** Tries to connect now. */
-export const reconnect = (): void => stream.hurry();
+/** Tries to connect now, as somebody asked for it. */
+export function reconnect(): void {
+  askAgain();
+  stream.hurry();
+}

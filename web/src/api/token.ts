@@ -47,19 +47,30 @@ export function setToken(value: string): void {
 }
 
 let asking: Promise<string | null> | null = null;
+let declined = false;
 
-/** Asks the person for a token, once however many ask for it; null when they would rather not. */
-export function askForToken(why: string): Promise<string | null> {
+/**
+ * Asks the person for a token, once however many ask for it; null when they would rather not. Who
+ * declined is not asked again before `askAgain()`, or by somebody who must (`insist`): what was asked
+ * for by nobody but the page itself is no reason to keep asking.
+ */
+export function askForToken(why: string, insist = false): Promise<string | null> {
+  if (declined && !insist) return Promise.resolve(null);
   asking ??= new Promise<string | null>((resolve) => {
     tokenQuestion.value = {
       why,
       answer(value) {
         tokenQuestion.value = null;
         asking = null;
+        declined = !value;
         if (value) setToken(value);
         resolve(value);
       },
     };
   });
   return asking;
+}
+
+export function askAgain(): void {
+  declined = false;
 }

@@ -142,13 +142,15 @@ export interface Attempt {
 
 export interface LayerDetail {
   layer: number;
+  present: boolean; // stored; else only its attempts are known, and file, bytes, sha256 are null
   committed_at: string | null;
   flagged: boolean;
   file: string;
   bytes: number;
   sha256: string;
-  width: number;
+  width: number; // pixels of the image, as the height
   height: number;
+  image: string | null; // where it is to be had
   attempts: Attempt[];
 }
 

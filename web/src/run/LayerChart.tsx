@@ -72,7 +72,7 @@ export function LayerChart({ name, title, about, limit, text, tick }: Props) {
         `last ${text(lastOf(value))}, ${rejected} rejected`;
 
   return (
-    <figure class="chart" data-chart={name} data-points={value.length} data-rejected={rejected}>
+    <figure class="chart" data-chart={name} data-count={value.length} data-rejected={rejected}>
       <figcaption class="chart-head">
         <h3>{title}</h3>
         <span class="muted chart-about">{about}</span>

@@ -17,6 +17,8 @@ export function Progress({ status }: { status: Status }) {
         aria-label="Layers stored"
         max={Math.max(1, layers)}
         value={committed}
+        aria-valuemax={Math.max(1, layers)}
+        aria-valuenow={committed}
       />
       <dl class="facts">
         <Fact name="Stored safely">

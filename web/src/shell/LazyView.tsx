@@ -13,7 +13,6 @@ interface Props {
 export function LazyView({ load }: Props) {
   const [view, setView] = useState<{ of: Props["load"]; component: ComponentType } | null>(null);
   const [failure, setFailure] = useState("");
-  const [tries, setTries] = useState(0);
 
   useEffect(() => {
     let wanted = true;
@@ -25,14 +24,15 @@ export function LazyView({ load }: Props) {
     return () => {
       wanted = false;
     };
-  }, [load, tries]);
+  }, [load]);
 
   if (view && view.of === load) return <view.component />;
   if (failure) {
     return (
       <p class="view-note">
         This part of the page could not be loaded: {failure}{" "}
-        <Button onClick={() => setTries(tries + 1)}>Try again</Button>
+        {/* The server may carry a newer page by now, whose files have other names. */}
+        <Button onClick={() => location.reload()}>Load the page again</Button>
       </p>
     );
   }

@@ -2,7 +2,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { ApiError, ConnectionError, getJson, postJson, withQuery } from "../../src/api/client";
-import { setToken, token, tokenQuestion } from "../../src/api/token";
+import { askAgain, setToken, token, tokenQuestion } from "../../src/api/token";
 
 const json = (value: unknown, status = 200, headers = {}) =>
   new Response(JSON.stringify(value), { status, headers });
@@ -17,6 +17,7 @@ describe("requests", () => {
     fetched.mockReset();
     vi.stubGlobal("fetch", fetched);
     setToken("");
+    askAgain();
   });
 
   afterEach(() => {

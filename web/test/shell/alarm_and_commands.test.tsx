@@ -1,0 +1,161 @@
+// @vitest-environment happy-dom
+import { render } from "preact";
+import { act } from "preact/test-utils";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+
+import { connection, status } from "../../src/api/live";
+import { setToken } from "../../src/api/token";
+import type { Status } from "../../src/api/types";
+import { Controls } from "../../src/run/Controls";
+import { AlarmBar } from "../../src/shell/AlarmBar";
+import { CommandDialog } from "../../src/shell/CommandDialog";
+import { commandAsked } from "../../src/shell/commands";
+import { ConnectionBanner } from "../../src/shell/ConnectionBanner";
+import { aStatus } from "../a_status";
+
+const page = () => document.body;
+const buttons = () => [...page().querySelectorAll("button")].map((button) => button.textContent);
+const button = (name: string) =>
+  [...page().querySelectorAll("button")].find((one) => one.textContent === name);
+const field = (name: string) => page().querySelector<HTMLInputElement>(`input[name="${name}"]`);
+
+function type(name: string, text: string): void {
+  const input = field(name);
+  if (!input) throw new Error(`there is no field ${name}`);
+  void act(() => {
+    input.value = text;
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+}
+
+const press = (name: string) => act(() => button(name)?.click());
+
+function show(changes: Partial<Status>, lost = false): void {
+  const shown = aStatus(changes);
+  void act(() => {
+    status.value = shown;
+    render(
+      <>
+        <AlarmBar />
+        <Controls status={shown} lost={lost} />
+        <CommandDialog />
+        <ConnectionBanner />
+      </>,
+      page(),
+    );
+  });
+}
+
+const alarm = {
+  cause: "the door is open",
+  since: "2024-05-01T10:00:00Z",
+  state: "grinding",
+  advice: "Close the door, then acknowledge.",
+} as const;
+
+describe("alarm and commands", () => {
+  const fetched = vi.fn<typeof fetch>();
+
+  beforeEach(() => {
+    fetched.mockReset();
+    vi.stubGlobal("fetch", fetched);
+    setToken("secret");
+    commandAsked.value = null;
+  });
+
+  afterEach(() => {
+    render(null, page());
+    status.value = null;
+    vi.unstubAllGlobals();
+  });
+
+  it("offers the commands that the job would obey, and no other", () => {
+    show({ commands: ["pause", "abort"] });
+    expect(buttons()).toEqual(["Pause", "Abort"]);
+    show({ commands: ["start", "something-new"] });
+    expect(buttons()).toEqual(["Start"]);
+    show({ commands: [] });
+    expect(buttons()).toEqual([]);
+  });
+
+  it("offers none that could not be sent", () => {
+    show({ commands: ["pause"] }, true);
+    expect(button("Pause")?.disabled).toBe(true);
+  });
+
+  it("tells of an alarm what happened, what to do and since when", () => {
+    show({ state: "faulted", alarm, commands: ["acknowledge"] });
+    const bar = page().querySelector('[role="alert"]');
+    expect(bar?.textContent).toContain("the door is open");
+    expect(bar?.textContent).toContain("Close the door, then acknowledge.");
+    expect(bar?.querySelector("time")?.dateTime).toBe(alarm.since);
+    show({ state: "idle", alarm: null });
+    expect(page().querySelector('[role="alert"]')).toBeNull();
+  });
+
+  it("sends a command with its reason, and shows the answer", async () => {
+    fetched.mockResolvedValue(new Response(JSON.stringify({ message: "the step is finished" })));
+    show({ commands: ["pause"] });
+    await press("Pause");
+    type("reason", " lunch ");
+    const form = page().querySelector("form");
+    await act(async () => {
+      form?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    const [path, options] = fetched.mock.calls[0];
+    expect(path).toBe("/api/v1/control/pause");
+    expect(options?.method).toBe("POST");
+    expect(options?.body).toBe('{"reason":"lunch"}');
+    expect(page().querySelector('[role="status"].notice')?.textContent).toContain(
+      "the step is finished",
+    );
+  });
+
+  it("shows why a command was refused, and leaves the dialog open", async () => {
+    const error = { error: { code: "conflict", message: "the job is done" } };
+    fetched.mockResolvedValue(new Response(JSON.stringify(error), { status: 409 }));
+    show({ commands: ["pause"] });
+    await press("Pause");
+    await act(async () => {
+      page()
+        .querySelector("form")
+        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    expect(page().querySelector('dialog [role="alert"]')?.textContent).toBe("the job is done");
+  });
+
+  it("does not abort before the word is typed", async () => {
+    show({ commands: ["abort"] });
+    await press("Abort");
+    const submit = () => page().querySelector<HTMLButtonElement>('dialog button[type="submit"]');
+    expect(submit()?.disabled).toBe(true);
+    type("confirmation", "abor");
+    expect(submit()?.disabled).toBe(true);
+    await act(() => {
+      page()
+        .querySelector("form")
+        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+    });
+    expect(fetched).not.toHaveBeenCalled();
+    type("confirmation", " Abort ");
+    expect(submit()?.disabled).toBe(false);
+  });
+
+  it("says that the connection is lost, on the body too", () => {
+    show({});
+    expect(page().querySelector(".connection-banner")?.textContent).toBe("");
+    void act(() => {
+      connection.value = {
+        state: "lost",
+        why: "The server does not answer.",
+        since: Date.now(),
+        heardAt: 0,
+        retryAt: Date.now() + 3000,
+      };
+    });
+    expect(page().querySelector('[role="status"]')?.textContent).toContain("Connection lost");
+    expect(document.body.dataset.connection).toBe("lost");
+  });
+});
