@@ -16,7 +16,7 @@ import {
   committed,
   filter,
   highest,
-  journal,
+  judged,
   marks,
   sample,
   sampleTrouble,
@@ -150,7 +150,7 @@ function Layers() {
         <StripTools
           filter={filter.value}
           onFilter={filterBy}
-          judged={journal.value === "kept"}
+          judged={judged.value}
           count={sequence.value.count}
           committed={committed.value}
           highest={highest.value}
@@ -219,7 +219,7 @@ function useKeys(act: (key: LayerKey) => void): void {
 /** Beside the picture: this layer, or the list of all rejected frames. */
 function Panel({ children }: { children: preact.ComponentChildren }) {
   const list = useSignal(false);
-  if (journal.value !== "kept") return <aside class="layer-panel">{children}</aside>;
+  if (!judged.value) return <aside class="layer-panel">{children}</aside>;
   return (
     <aside class="layer-panel" aria-label="About the layer">
       <div class="segments" role="group" aria-label="Shown here">

@@ -15,26 +15,26 @@ export interface JudgedAttempt {
   readonly verdict: string;
 }
 
-/** Marks by layer; `last` is the newest attempt that went into them. */
+/** Marks by layer, and the attempts that went into them. */
 export interface LayerMarks {
   readonly byLayer: ReadonlyMap<number, LayerMark>;
-  readonly last: number;
+  readonly ids: ReadonlySet<number>;
 }
 
-export const noMarks: LayerMarks = { byLayer: new Map(), last: 0 };
+export const noMarks: LayerMarks = { byLayer: new Map(), ids: new Set() };
 
 const unmarked: LayerMark = { rejected: 0, flagged: false, accepted: false };
 
-/** The marks with further attempts; those that are in them already are passed over. */
+/** The marks with further attempts, in any order; those that are in them are passed over. */
 export function marksWith(marks: LayerMarks, attempts: Iterable<JudgedAttempt>): LayerMarks {
   const byLayer = new Map(marks.byLayer);
-  let last = marks.last;
+  const ids = new Set(marks.ids);
   for (const attempt of attempts) {
-    if (attempt.id <= marks.last) continue;
-    last = Math.max(last, attempt.id);
+    if (ids.has(attempt.id)) continue;
+    ids.add(attempt.id);
     byLayer.set(attempt.layer, markWith(byLayer.get(attempt.layer) ?? unmarked, attempt.verdict));
   }
-  return last === marks.last ? marks : { byLayer, last };
+  return ids.size === marks.ids.size ? marks : { byLayer, ids };
 }
 
 function markWith(mark: LayerMark, verdict: string): LayerMark {

@@ -1,6 +1,6 @@
 import { computed, effect, signal } from "@preact/signals";
 
-import { ApiError, ConnectionError, getJson, sentenceOf } from "../api/client";
+import { ConnectionError, getJson, sentenceOf } from "../api/client";
 import { onAttempt, onGap, sampleProgress, service } from "../api/live";
 import type { History, Sample } from "../api/types";
 import { highestMarked, marksWith, noMarks, type JudgedAttempt } from "./layer_marks";
@@ -12,8 +12,8 @@ export const sample = signal<Sample | null>(null);
 /** Why there is no sample to show; empty while there may be one. */
 export const sampleTrouble = signal("");
 export const marks = signal(noMarks);
-/** none: the sample was imported, so that nothing was ever judged. */
-export const journal = signal<"unknown" | "kept" | "none">("unknown");
+/** False where the sample was imported, so that nothing was ever judged. */
+export const judged = computed(() => marks.value.ids.size > 0 || service.value?.kind === "rig");
 export const filter = signal<LayerFilter>("all");
 
 /** Layers 1 to this one have an image. */
@@ -29,6 +29,9 @@ export const committed = computed(() =>
 export const highest = computed(() => Math.max(committed.value, highestMarked(marks.value)));
 
 export const sequence = computed(() => filteredLayers(filter.value, marks.value, highest.value));
+
+/** The last attempt of the history that was fetched. */
+let historyEnd = 0;
 
 const retryMs = 3000;
 
@@ -52,7 +55,6 @@ export function watchLayers(): () => void {
   let name = service.peek()?.sample;
   const stops = [
     onAttempt((attempt) => {
-      journal.value = "kept";
       marks.value = marksWith(marks.value, [attempt]);
     }),
     onGap(learn),
@@ -66,7 +68,7 @@ export function watchLayers(): () => void {
     }),
     // A sample that was not there when it was asked for is there as soon as it grows.
     effect(() => {
-      if (sampleProgress.value && sample.peek() === null) learn();
+      if (sampleProgress.value && sampleTrouble.peek()) learn();
     }),
   ];
   return () => {
@@ -79,7 +81,7 @@ export function watchLayers(): () => void {
 function forget(): void {
   sample.value = null;
   marks.value = noMarks;
-  journal.value = "unknown";
+  historyEnd = 0;
 }
 
 async function learnSample(signal: AbortSignal): Promise<void> {
@@ -88,17 +90,9 @@ async function learnSample(signal: AbortSignal): Promise<void> {
 }
 
 async function learnHistory(signal: AbortSignal): Promise<void> {
-  const known = marks.peek().last;
-  try {
-    const history = await getJson<History>(`/api/v1/history?metrics=&after=${known}`, signal);
-    marks.value = marksWith(marks.value, attemptsOf(history));
-    if (marks.value.last > 0) journal.value = "kept";
-    else if (journal.value === "unknown")
-      journal.value = service.value?.kind === "view" ? "none" : "kept";
-  } catch (error) {
-    if (!(error instanceof ApiError)) throw error;
-    journal.value = "none";
-  }
+  const history = await getJson<History>(`/api/v1/history?after=${historyEnd}`, signal);
+  historyEnd = history.last;
+  marks.value = marksWith(marks.value, attemptsOf(history));
 }
 
 function attemptsOf(history: History): JudgedAttempt[] {
