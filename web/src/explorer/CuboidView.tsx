@@ -2,6 +2,7 @@ import { effect, useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 
 import { fixed } from "../ui/numbers";
+import { arrows, moveByArrow } from "./arrow_keys";
 import { bestRenderer } from "./best_renderer";
 import { surfacePoint } from "./box_surface";
 import { axisLabels } from "./cuboid_scene";
@@ -130,7 +131,7 @@ function drawOnDemand(
         projection: projection.value,
         far: state.far.value,
         depthPresent: depthOfLayer(cuboid, Math.max(1, layers)),
-        picture: state.frame.value?.picture ?? state.overview.value,
+        picture: state.shownPicture.value,
         polygon: state.shownPlane.value?.polygon ?? [],
         colours: coloursOf(canvas),
       },
@@ -139,7 +140,7 @@ function drawOnDemand(
   };
   const stop = effect(() => {
     void [renderer.value, projection.value, size.value, scheme.value];
-    void [state.shownPlane.value, state.overview.value, state.frame.value];
+    void [state.shownPlane.value, state.shownPicture.value];
     void [state.cuboid.value, state.layersPresent.value];
     if (frame === 0) frame = requestAnimationFrame(draw);
   });
@@ -180,7 +181,6 @@ function Overlay({ state, projection, handles, held }: OverlayProps) {
           .join(","),
       )
       .join(" ");
-  const overview = state.overview.value;
   const rectangle = state.frame.value ? null : state.rectangle.value;
   const layers = state.layersPresent.value;
   const depth = depthOfLayer(cuboid, Math.max(1, layers));
@@ -209,7 +209,7 @@ function Overlay({ state, projection, handles, held }: OverlayProps) {
         </text>
       ))}
       {placed && <polygon class="section-outline" points={path(placed.polygon)} />}
-      {rectangle && overview && state.choices.value.theta.kind !== "bounding" && (
+      {rectangle && state.choices.value.theta.kind !== "bounding" && (
         <polygon class="theta-outline" points={path(cornersOf(rectangle))} />
       )}
       {handles.value.map(([x, y], i) => (
@@ -316,13 +316,6 @@ function useCuboidPointer(
   }, []);
 }
 
-const arrows: Record<string, [number, number]> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-
 function pressed(
   event: KeyboardEvent,
   state: ExplorerState,
@@ -346,13 +339,6 @@ function pressed(
   else if (event.key === "PageUp") state.nudge(-10);
   else return;
   event.preventDefault();
-}
-
-/** Up and down by a step along its normal, left and right by a degree of tilt. */
-export function moveByArrow(state: ExplorerState, [right, down]: [number, number]): void {
-  if (down !== 0) state.nudge(down);
-  const tilt = state.shownPlane.value?.angles.tilt ?? 0;
-  if (right !== 0) state.turn({ tilt: Math.min(90, Math.max(0, tilt + right)) });
 }
 
 function movePointBy(

@@ -3,7 +3,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
-import { moveByArrow } from "./CuboidView";
+import { arrows, moveByArrow } from "./arrow_keys";
 import type { ExplorerState } from "./explorer_state";
 import { Fingers } from "./fingers";
 import { cornersOf, inPlane, turnedBasis } from "./geometry/plane_rectangle";
@@ -92,7 +92,12 @@ export function SectionView({ state, tools, children }: Props) {
   useSectionPointer(box, state, tools, placement, draft);
 
   return (
-    <div class="section-panel" ref={box}>
+    <div
+      class="section-panel"
+      ref={box}
+      data-tool={tools.tool.value}
+      data-closeup={state.closeup.value ? "" : undefined}
+    >
       <canvas
         ref={canvas}
         class="section-canvas"
@@ -160,7 +165,14 @@ function SectionOverlay({ state, tools, draft }: OverlayProps) {
             })}
         </>
       )}
-      {theta.kind === "edge" && <EdgeNumbers polygon={polygon} at={at} chosen={theta.edge} />}
+      {theta.kind === "edge" && (
+        <EdgeNumbers
+          polygon={polygon}
+          at={at}
+          chosen={theta.edge}
+          room={[window.width / ratio, window.height / ratio]}
+        />
+      )}
       {draft.value && <DraftRectangle ends={draft.value.map(at) as [Place, Place]} />}
       {measured && <Distance from={measured.from} to={measured.to} at={at} />}
       <ScaleBar window={window} ratio={ratio} />
@@ -175,11 +187,14 @@ function EdgeNumbers({
   polygon,
   at,
   chosen,
+  room,
 }: {
   polygon: readonly Vector3[];
   at: At;
   chosen: number;
+  room: Place;
 }) {
+  const inside = (value: number, length: number) => Math.min(length - 14, Math.max(14, value));
   return (
     <>
       {polygon.map((vertex, i) => {
@@ -188,7 +203,11 @@ function EdgeNumbers({
         return (
           <g key={i} class={i === chosen ? "edge edge-chosen" : "edge"}>
             <line x1={ax} y1={ay} x2={bx} y2={by} />
-            <text x={(ax + bx) / 2} y={(ay + by) / 2} class="over-picture">
+            <text
+              x={inside((ax + bx) / 2, room[0])}
+              y={inside((ay + by) / 2, room[1])}
+              class="over-picture"
+            >
               {i}
             </text>
           </g>
@@ -398,13 +417,6 @@ export function zoomAbout(state: ExplorerState, factor: number, place?: Place): 
   const middle: Place = place ?? [window.width / 2, window.height / 2];
   state.closeup.value = zoomedAt(window, factor, middle, state.finestPixel.value);
 }
-
-const arrows: Record<string, Place> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
 
 function pressed(event: KeyboardEvent, state: ExplorerState, tools: SectionTools): void {
   if (event.ctrlKey || event.metaKey || event.altKey) return;

@@ -32,6 +32,7 @@ import { rectangleOf } from "./section_record";
 import type { SectionPicture } from "./section_record";
 import {
   closeupWindow,
+  evenPixel,
   fittingPixel,
   readablePixel,
   visiblePart,
@@ -77,7 +78,6 @@ export class ExplorerState {
   readonly panel = signal<Panel>({ width: 0, height: 0, ratio: 1 });
 
   readonly picture = signal<SectionPicture | null>(null);
-  readonly overview = signal<SectionPicture | null>(null); // the last of a whole section
   readonly inscribed = signal<{ of: string; rectangle: PlaneRectangle } | null>(null);
   readonly frame = signal<ShownFrame | null>(null);
   readonly settled = signal(false); // the picture is the sharp one of what is chosen
@@ -145,12 +145,14 @@ export class ExplorerState {
     const closeup = this.closeup.value;
     if (closeup && seen) return closeupWindow(seen, width, height, closeup);
     const picture = this.picture.value;
-    if (!picture?.whole) return seen && wholeWindow(seen, width, height);
+    const cuboid = this.cuboid.value;
+    const least = cuboid ? leastSpacing(cuboid) : 1;
+    const fitting = (frame: PlaneRectangle) => evenPixel(fittingPixel(frame, width, height), least);
+    if (!picture?.whole) return seen && wholeWindow(seen, width, height, fitting(seen));
     const { record, sharp } = picture;
     const shown = rectangleOf(record);
-    const fitting = fittingPixel(shown, width, height);
     const reduced = sharp && record.pixel_um > record.full.pixel_um;
-    return wholeWindow(shown, width, height, reduced ? record.pixel_um : fitting);
+    return wholeWindow(shown, width, height, reduced ? record.pixel_um : fitting(shown));
   });
 
   readonly finestPixel = computed(() => {
@@ -360,13 +362,8 @@ export class ExplorerState {
         this.inscribed.value = { of, rectangle: rectangleOf(picture.record) };
       }
       const before = this.picture.value;
-      const unseen = this.overview.value;
       this.picture.value = picture;
-      if (picture.whole) this.overview.value = picture;
-      const kept = [this.picture.value, this.overview.value];
-      for (const old of new Set([before, unseen])) {
-        if (old && !kept.includes(old)) old.image.close();
-      }
+      if (before !== picture) before?.image.close();
     });
   }
 }

@@ -54,7 +54,7 @@ export interface Projection {
   height: number;
 }
 
-const roomAround = 0.8; // the part of the window that the block takes, labels beside it
+const roomAround = 0.76; // the part of the window that the block takes, labels beside it
 
 /** The block's size on the screen does not depend on the angle, so that it does not pump. */
 export function projectionOf(

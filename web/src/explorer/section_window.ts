@@ -24,6 +24,10 @@ export function fittingPixel(frame: PlaneRectangle, width: number, height: numbe
   return Math.max(across, down) || 1;
 }
 
+/** Where voxels are larger than the screen's pixels, all are equally many pixels large. */
+export const evenPixel = (fitting: number, voxel: number): number =>
+  fitting < voxel ? voxel / Math.floor(voxel / fitting) : fitting;
+
 export function wholeWindow(
   frame: PlaneRectangle,
   width: number,

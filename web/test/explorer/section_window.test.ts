@@ -5,6 +5,7 @@ import { inSample } from "../../src/explorer/geometry/plane_rectangle";
 import {
   barLength,
   closeupWindow,
+  evenPixel,
   fittingPixel,
   lengthWords,
   movedBy,
@@ -32,6 +33,12 @@ describe("the window on a section", () => {
     expect(fittingPixel(frame, 1000, 1000)).toBe(10);
     const whole = wholeWindow(frame, 1000, 1000);
     expect(pixelAt(whole, [0, 0])[0]).toBeCloseTo(0.5, 9);
+  });
+
+  it("shows a small section by whole pixels a voxel", () => {
+    expect(evenPixel(9.98, 10)).toBe(10);
+    expect(evenPixel(3, 10)).toBe(10 / 3);
+    expect(evenPixel(12, 10)).toBe(12);
   });
 
   it("keeps what is under the cursor where it is when it zooms", () => {
