@@ -44,5 +44,3 @@ export async function command(page, name, { reason, token } = {}) {
 
 /** The answer that asks for a token is an error to the browser's console; no other is. */
 export const askedForToken = /status of 401/;
-/** So is a command that the rig refused. */
-export const refusedByRig = /status of 409/;

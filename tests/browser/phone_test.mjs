@@ -74,7 +74,7 @@ for (const view of views) {
       await tab.close();
     }
   });
-  test(`${view.name} fits ${narrowest} pixels, with large letters too`, async () => {
+  test(`${view.name} fits ${narrowest} pixels`, async () => {
     const tab = await Tab.open(browser, { viewport: { width: narrowest, height: 640 } });
     try {
       await open(tab, rig.url, view);
@@ -85,7 +85,7 @@ for (const view of views) {
   });
 }
 
-test("a layer is swiped to and the plane is dragged by a finger", async () => {
+test("a layer is chosen by a finger", async () => {
   const tab = await Tab.open(browser, {
     viewport: phone,
     isMobile: true,

@@ -59,8 +59,8 @@ test("every attempt of the run is in the charts, without loading the page anew",
     const figure = tab.page.locator(`[data-chart="${chart}"]`);
     await until(
       `${attempts} attempts in the chart ${chart}`,
-      async () => Number(await figure.getAttribute("data-points")) === attempts,
-      { said: () => figure.getAttribute("data-points") },
+      async () => Number(await figure.getAttribute("data-count")) === attempts,
+      { said: () => figure.getAttribute("data-count") },
     );
   }
 });
