@@ -17,5 +17,6 @@ void add_export_command(CLI::App& app);
 void add_rig_command(CLI::App& app);
 void add_qc_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 
 }  // namespace biotomy::tools

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   biotomy::tools::add_qc_command(app);
   biotomy::tools::add_rig_command(app);
   biotomy::tools::add_calibrate_command(app);
+  biotomy::tools::add_view_command(app);
   try {
     app.parse(argc, argv);
     // Asked here and not by CLI11, which would say this of a misspelt command too.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +13,7 @@
 #include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/interruption.hpp"
+#include "reconstruct/section/cache_need.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -81,23 +81,16 @@ std::filesystem::path sidecar_of(std::filesystem::path picture) {
   return picture.replace_extension(".json");
 }
 
-/// One section needs the chunks of two strips of its rows at a time. Memory for more would only be
-/// filled once, and filling fresh memory takes as long as decoding.
-std::size_t enough_for_one(const OpenedSample& sample, const reconstruct::SectionRequest& request) {
-  constexpr std::size_t kLeastBytes = 32'000'000;
-  constexpr std::size_t kBytesForAColumn = 25'000;  // of 8 bits; ample at scale: run_scale
-  const Volume& volume = sample.volume;
-  const auto columns = static_cast<std::size_t>(
-      reconstruct::outline_section(volume.cuboid(), volume.bits(), request).grid.columns);
-  return std::max(kLeastBytes, columns * kBytesForAColumn) *
-         static_cast<std::size_t>(volume.bits() / 8);
-}
-
 /// The chunks are gone when it returns: encoding the picture needs the memory.
 Section cut(const OpenedSample& sample, const reconstruct::SectionRequest& request,
             const SectionChoices& chosen, const std::string& output) {
-  VolumeBricks source(sample.volume, std::min(chosen.cache_bytes, enough_for_one(sample, request)),
-                      chosen.damage, &sample.tail);
+  const Volume& volume = sample.volume;
+  const int columns =
+      reconstruct::outline_section(volume.cuboid(), volume.bits(), request).grid.columns;
+  VolumeBricks source(
+      volume,
+      std::min(chosen.cache_bytes, reconstruct::cache_for_one_section(columns, volume.bits())),
+      chosen.damage, &sample.tail);
   ProgressBar progress("Cutting", "rows");
   Section section =
       reconstruct::cut_section(source, request, [&](std::int64_t done, std::int64_t total) {

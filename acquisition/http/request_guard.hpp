@@ -15,7 +15,7 @@ struct GuardSettings {
   /// Names under which this computer is asked, beside its own; without a port.
   std::vector<std::string> hosts;
   /// The origin of the only foreign page that may read the volume; empty: none may.
-  std::string neuroglancer_origin;
+  std::string neuroglancer_origin = "https://neuroglancer-demo.appspot.com";
 };
 
 /// Keeps other web sites' pages out of the rig, with the browsers' help. A page that somebody looks

@@ -52,11 +52,11 @@ struct RequestReader::State {
     return Outcome::refused;
   }
 
-  Refusal refusal_of(const boost::beast::error_code& error, const std::string& bytes) const {
+  Refusal refusal_of(const boost::beast::error_code& error) const {
     if (error == http::error::body_limit) return kBodyTooLarge;
     if (error != http::error::header_limit) return kUnreadable;
     // A first line that has no end in so many bytes is all target.
-    return bytes.find("\r\n") < kLongestTarget ? kHeaderTooLong : kTargetTooLong;
+    return parser->get().target().empty() ? kTargetTooLong : kHeaderTooLong;
   }
 
   /// Once the header is there. False when what it says is refused.
@@ -85,7 +85,7 @@ RequestReader::Outcome RequestReader::take(std::string& bytes) {
     const std::size_t used =
         state.parser->put(boost::asio::const_buffer(bytes.data(), bytes.size()), error);
     if (error && error != http::error::need_more) {
-      return state.refuse(state.refusal_of(error, bytes));
+      return state.refuse(state.refusal_of(error));
     }
     bytes.erase(0, used);
     if (state.parser->is_header_done() && !state.check_header()) return Outcome::refused;
@@ -94,7 +94,7 @@ RequestReader::Outcome RequestReader::take(std::string& bytes) {
   if (!state.parser->is_done()) {
     // The parser looks at a header's length only when it has all of it.
     const bool too_long = !state.parser->is_header_done() && bytes.size() > kLongestHeader;
-    return too_long ? state.refuse(state.refusal_of(http::error::header_limit, bytes))
+    return too_long ? state.refuse(state.refusal_of(http::error::header_limit))
                     : Outcome::needs_more;
   }
   return Outcome::complete;

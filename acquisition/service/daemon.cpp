@@ -15,6 +15,7 @@
 #include "acquisition/calibration/corrected_camera.hpp"
 #include "acquisition/http/event_feed.hpp"
 #include "acquisition/http/http_server.hpp"
+#include "acquisition/http/listen_address.hpp"
 #include "acquisition/http/page.hpp"
 #include "acquisition/job/control_loop.hpp"
 #include "acquisition/job/job.hpp"
@@ -265,8 +266,7 @@ int run_daemon(const Configuration& configuration) {
           log_error(kComponent, std::string("the control loop failed: ") + what);
           control.failed = true;
         });
-    log_info(kComponent, "listening on http://" + configuration.service.host + ":" +
-                             std::to_string(server.port()));
+    log_info(kComponent, "listening on " + http_url(configuration.service.host, server.port()));
     watch_over(signals, control, liveness, life, systemd, board);
     log_info(kComponent, "is ending: brings the rig to rest");
     systemd.stopping();

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "acquisition/http/http_server.hpp"
+#include "acquisition/http/listen_address.hpp"
 #include "acquisition/job/recovery.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/sample_fit.hpp"
@@ -219,7 +220,7 @@ void check_address(const ServiceConfiguration& service, RigFindings& findings) {
   if (const auto complaint = listen_complaint(service.host, service.port)) {
     findings.wrong(kPage, *complaint);
   } else {
-    findings.good(kPage, "http://" + service.host + ":" + std::to_string(service.port));
+    findings.good(kPage, http_url(service.host, service.port));
   }
 }
 

@@ -1,9 +1,7 @@
 #include "acquisition/service/service_section.hpp"
 
-#include <arpa/inet.h>
-
+#include "acquisition/http/listen_address.hpp"
 #include "acquisition/service/configuration_keys.hpp"
-#include "firmware_bridge/wire/endpoint.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -14,27 +12,18 @@ using bridge::TextKey;
 using bridge::TextsKey;
 
 constexpr int kMegabyte = 1'000'000;
-constexpr const char* kNeuroglancerDemo = "https://neuroglancer-demo.appspot.com";
-
-/// Whether only this computer reaches the address. A name other than localhost may be any address.
-bool is_loopback(const std::string& host) {
-  if (host == "localhost" || host == "::1") return true;
-  in_addr address{};
-  return ::inet_pton(AF_INET, host.c_str(), &address) == 1 && (ntohl(address.s_addr) >> 24U) == 127;
-}
 
 void read_listen(const CheckedTable& table, ServiceConfiguration& service) {
   const std::string listen =
       table.get(TextKey{.name = "listen",
                         .fallback = "127.0.0.1:8080",
                         .description = "address and port of the web page and the API"});
-  try {
-    const bridge::Endpoint endpoint = bridge::parse_endpoint("tcp://" + listen);
-    service.host = endpoint.host;
-    service.port = endpoint.port;
-  } catch (const bridge::ConfigurationError&) {
+  const std::optional<ListenAddress> address = parse_listen_address(listen);
+  if (!address) {
     table.reject("listen", "\"" + listen + "\" is not possible; expected \"address:port\"");
   }
+  service.host = address->host;
+  service.port = address->port;
 }
 
 /// An origin as browsers tell it: a scheme and a host, without a path.
@@ -59,7 +48,7 @@ void read_foreigners(const CheckedTable& table, ServiceConfiguration& service) {
   }
   const std::string neuroglancer = table.get(
       TextKey{.name = "neuroglancer",
-              .fallback = kNeuroglancerDemo,
+              .fallback = service.http.guard.neuroglancer_origin,
               .may_be_empty = true,
               .description = "the one foreign page that may read the volume, neuroglancer's; "
                              "empty: none may"});

@@ -151,22 +151,6 @@ std::string status_json(const JobStatus& status, const StatusContext& context) {
                    {"failure", status.volume.failure}}}});
 }
 
-std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count) {
-  json list = json::array();
-  for (const LayerRow& layer : layers) {
-    list.push_back({{"layer", layer.layer},
-                    {"attempt", layer.attempt},
-                    {"flagged", layer.flagged},
-                    {"file", layer.file},
-                    {"bytes", layer.bytes},
-                    {"sha256", layer.sha256},
-                    {"committed_at", layer.committed_at},
-                    {"reason", layer.reason},
-                    {"metrics", metrics_json(layer.metrics)}});
-  }
-  return dumped({{"count", count}, {"layers", list}});
-}
-
 std::string reply_json(const std::string& message) {
   return dumped({{"accepted", true}, {"message", message}});
 }

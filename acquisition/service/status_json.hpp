@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "acquisition/job/job_status.hpp"
 #include "acquisition/job/safety_limits.hpp"
@@ -18,9 +17,6 @@ struct StatusContext {
 
 /// The JSON of GET /api/v1/status.
 std::string status_json(const JobStatus& status, const StatusContext& context);
-
-/// The JSON of GET /api/v1/layers.
-std::string layers_json(const std::vector<LayerRow>& layers, std::int64_t count);
 
 /// {"accepted": true, "message": …}
 std::string reply_json(const std::string& message);

@@ -13,6 +13,7 @@
 
 #include "acquisition/log.hpp"
 #include "acquisition/records/journal_error.hpp"
+#include "acquisition/viewer/exports/export_queue.hpp"
 #include "acquisition/viewer/layer_images.hpp"
 #include "acquisition/viewer/layer_records.hpp"
 #include "acquisition/viewer/live_sample.hpp"
@@ -46,6 +47,34 @@ std::vector<std::string> words_of(const std::string& path) {
   return words;
 }
 
+class WrongMethod : public Refusal {
+ public:
+  WrongMethod(const ApiRequest& request, std::string allowed)
+      : Refusal(405, request.path + " takes " + allowed + ", not " + request.method),
+        allowed_(std::move(allowed)) {}
+
+  const std::string& allowed() const { return allowed_; }
+
+ private:
+  std::string allowed_;
+};
+
+void require_method(const ApiRequest& request, std::initializer_list<std::string_view> allowed) {
+  if (std::find(allowed.begin(), allowed.end(), request.method) != allowed.end()) return;
+  std::string list;
+  for (const std::string_view method : allowed) {
+    list += (list.empty() ? "" : ", ") + std::string(method);
+  }
+  throw WrongMethod(request, list);
+}
+
+/// Beside the sample, never in it: a sample can be copied without what was made of it.
+std::filesystem::path exports_folder(const ViewerSettings& settings,
+                                     const std::filesystem::path& sample) {
+  if (!settings.exports.empty()) return settings.exports;
+  return sample.parent_path() / (sample.filename().string() + "-exports");
+}
+
 [[noreturn]] void refuse_path(const std::string& path) {
   throw Refusal(404, "there is no " + path);
 }
@@ -68,6 +97,7 @@ struct SampleApi::State {
   LayerRecords records;
   mutable LayerImages images;
   VolumeFiles volume;
+  mutable ExportQueue exports;
 
   State(std::filesystem::path sample, ViewerSettings chosen)
       : settings(std::move(chosen)),
@@ -77,7 +107,10 @@ struct SampleApi::State {
         series(live),
         records(live, settings.journal),
         images(live, records, arena, settings.decoded_bytes),
-        volume(live.folder() / "volume.ome.zarr") {}
+        volume(live.folder() / "volume.ome.zarr"),
+        exports(live, arena,
+                {exports_folder(settings, live.folder()), settings.bytes_to_spare,
+                 settings.cache_bytes}) {}
 
   ApiResponse sample() const {
     const auto view = live.look();
@@ -103,17 +136,35 @@ struct SampleApi::State {
     refuse_path(request.path);
   }
 
+  /// `words` are those after "exports".
+  ApiResponse answer_exports(const std::vector<std::string>& words,
+                             const ApiRequest& request) const {
+    if (words.empty()) {
+      require_method(request, {"GET", "POST"});
+      return request.method == "POST" ? exports.add(request) : exports.list();
+    }
+    if (words.size() == 1) {
+      require_method(request, {"GET", "DELETE"});
+      return request.method == "DELETE" ? exports.remove(words[0]) : exports.one(words[0]);
+    }
+    if (words.size() != 3 || words[1] != "files") refuse_path(request.path);
+    require_method(request, {"GET"});
+    return exports.file(words[0], words[2], request);
+  }
+
   ApiResponse route(const ApiRequest& request) const {
+    const std::vector<std::string> words = words_of(request.path);
+    const std::vector<std::string> rest(words.empty() ? words.begin() : words.begin() + 1,
+                                        words.end());
+    const std::string& first = words.empty() ? request.path : words[0];
+    if (first != "exports") require_method(request, {"GET"});
     if (!std::filesystem::exists(live.folder() / "sample.toml")) {
       throw Refusal(404, "there is no sample yet at " + live.folder().string());
     }
     if (request.path.starts_with(kVolume)) {
       return volume.answer(request.path.substr(kVolume.size()), request);
     }
-    const std::vector<std::string> words = words_of(request.path);
-    const std::vector<std::string> rest(words.empty() ? words.begin() : words.begin() + 1,
-                                        words.end());
-    const std::string& first = words.empty() ? request.path : words[0];
+    if (first == "exports") return answer_exports(rest, request);
     if (first == "layers") return layers(rest, request);
     if (first == "rejected" && rest.empty()) return records.rejected(request);
     if (first == "rejected" && rest.size() == 1) return records.rejected_picture(rest[0], request);
@@ -141,8 +192,8 @@ SampleApi::SampleApi(std::filesystem::path sample, ViewerSettings settings)
 SampleApi::~SampleApi() = default;
 
 bool SampleApi::answers(const ApiRequest& request) const {
-  static constexpr std::array<std::string_view, 6> kFirst = {"sample",  "layers",  "rejected",
-                                                             "history", "section", "series"};
+  static constexpr std::array<std::string_view, 7> kFirst = {
+      "sample", "layers", "rejected", "history", "section", "series", "exports"};
   if (request.path.starts_with(kVolume)) return true;
   const std::vector<std::string> words = words_of(request.path);
   return !words.empty() && std::find(kFirst.begin(), kFirst.end(), words[0]) != kFirst.end();
@@ -154,7 +205,9 @@ Lane SampleApi::lane(const ApiRequest& request) {
   const bool draws =
       (words[0] == "section" && words.size() == 1) || (words[0] == "layers" && words.size() > 2);
   if (draws) return Lane::pictures;
-  return words[0] == "rejected" && words.size() > 1 ? Lane::files : Lane::quick;
+  const bool sends =
+      (words[0] == "rejected" && words.size() > 1) || (words[0] == "exports" && words.size() > 2);
+  return sends ? Lane::files : Lane::quick;
 }
 
 bool SampleApi::is_command(const ApiRequest& request) {
@@ -163,13 +216,11 @@ bool SampleApi::is_command(const ApiRequest& request) {
 
 ApiResponse SampleApi::answer(const ApiRequest& request) const {
   try {
-    if (request.method != "GET") {
-      ApiResponse response =
-          error_response(405, request.path + " takes GET, not " + request.method);
-      response.headers["Allow"] = "GET";
-      return response;
-    }
     return state_->route(request);
+  } catch (const WrongMethod& wrong) {
+    ApiResponse response = error_response(wrong.status(), wrong.what());
+    response.headers["Allow"] = wrong.allowed();
+    return response;
   } catch (const Refusal& refusal) {
     return error_response(refusal.status(), refusal.what());
   } catch (const reconstruct::InvalidRequest& error) {
@@ -204,7 +255,7 @@ std::string SampleApi::sample_event() const {
 }
 
 void SampleApi::on_export(std::function<void(std::string json)> listener) {
-  (void)listener;
+  state_->exports.on_change(std::move(listener));
 }
 
 }  // namespace biotomy::acquisition

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 
 #include "acquisition/records/journal_reader.hpp"
 
@@ -13,6 +16,9 @@ struct ViewerSettings {
   int threads = 0;                          ///< that sample one section; 0: half of the processors
   /// Whether somebody may write the sample's journal meanwhile.
   JournalReader::Journal journal = JournalReader::Journal::in_use;
+  std::filesystem::path exports = {};  ///< where they lie; empty: SAMPLE-exports, beside the sample
+  /// Bytes of that disk that nobody else needs; if none: all but 1 GiB.
+  std::function<std::uint64_t()> bytes_to_spare = {};
 };
 
 }  // namespace biotomy::acquisition

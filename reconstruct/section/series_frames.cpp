@@ -95,14 +95,14 @@ cv::Point SeriesFrames::first_pixel(std::size_t index) const {
   return canvas_.place_of(size_of(outlines_.at(index).value()));
 }
 
-SampledImage SeriesFrames::draw(std::size_t index) const {
+SampledImage SeriesFrames::draw(std::size_t index, const OnRows& on_rows) const {
   const std::string label = frame_label(series_, index);
   const std::optional<SectionOutline>& outline = outlines_.at(index);
   if (!outline) {
     return {canvas_.draw_empty(frame_type(), label), {}};
   }
   const SampledImage sampled =
-      sample_grid(source_, outline->grid, style_.interpolation, style_.background);
+      sample_grid(source_, outline->grid, style_.interpolation, style_.background, on_rows);
   return {canvas_.draw(sampled.image, label), sampled.statistics};
 }
 

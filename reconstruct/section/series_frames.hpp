@@ -39,8 +39,9 @@ class SeriesFrames {
   cv::Point first_pixel(std::size_t index) const;
 
   /// CV_8UC3 or CV_16UC3, R G B: the section, centred; the background alone where the plane does
-  /// not cut the sample; with its label. The statistics are the section's.
-  SampledImage draw(std::size_t index) const;
+  /// not cut the sample; with its label. The statistics are the section's. `on_rows` is told and
+  /// may end it as sample_grid's.
+  SampledImage draw(std::size_t index, const OnRows& on_rows = {}) const;
 
  private:
   BrickSource& source_;

@@ -27,6 +27,12 @@ bool fuzz_sample_description(FuzzInput input);
 bool fuzz_layer_image(FuzzInput input);
 bool fuzz_parameter_text(FuzzInput input);
 
+/// What a client sends; the first byte is how much of it comes at a time, less one.
+bool fuzz_http_request(FuzzInput input);
+
+/// The parameters of /api/v1/section, as a client writes them behind the question mark.
+bool fuzz_section_query(FuzzInput input);
+
 struct FuzzTarget {
   const char* name;  ///< of the folders below corpus/ and regression/
   bool (*run)(FuzzInput);
@@ -40,6 +46,8 @@ inline constexpr std::array kFuzzTargets{
     FuzzTarget{"sample_description", fuzz_sample_description},
     FuzzTarget{"layer_image", fuzz_layer_image},
     FuzzTarget{"parameter_text", fuzz_parameter_text},
+    FuzzTarget{"http_request", fuzz_http_request},
+    FuzzTarget{"section_query", fuzz_section_query},
 };
 
 }  // namespace biotomy::tests

@@ -195,7 +195,7 @@ TEST_F(FocusCalibrationTest, ShowsHowFarItIs) {
     bench.tick();
   }
   bench.tick();
-  shown = nlohmann::json::parse(status_json(*bench.board.look()))
+  shown = nlohmann::json::parse(status_json(*bench.board.look(), {}))
               .at("calibration")
               .at("sentence")
               .get<std::string>();

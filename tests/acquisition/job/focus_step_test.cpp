@@ -41,7 +41,7 @@ TEST(FocusStep, TellsOfItsLastSearchInTheStatus) {
                                                  std::to_string(status->focus->frames)),
             1);
   EXPECT_NEAR(status->focus->plane.value, 600.0, 4.0);
-  EXPECT_THAT(status_json(*status), HasSubstr("\"actuator\":\"column\""));
+  EXPECT_THAT(status_json(*status, {}), HasSubstr("\"actuator\":\"column\""));
 }
 
 TEST(FocusStep, ComesToEveryFrameFromBelow) {

@@ -165,9 +165,10 @@ TEST_F(JobCalibration, IsGivenUpWhenTheDoorIsOpened) {
 }
 
 TEST_F(JobCalibration, IsShownInTheStatus) {
-  EXPECT_TRUE(nlohmann::json::parse(status_json(*bench.board.look())).at("calibration").is_null());
+  EXPECT_TRUE(
+      nlohmann::json::parse(status_json(*bench.board.look(), {})).at("calibration").is_null());
   calibrate(OperatorCommand::calibrate_flat);
-  const auto shown = nlohmann::json::parse(status_json(*bench.board.look())).at("calibration");
+  const auto shown = nlohmann::json::parse(status_json(*bench.board.look(), {})).at("calibration");
   EXPECT_EQ(shown.at("kind"), "flat");
   EXPECT_EQ(shown.at("progress"), "done");
 }

@@ -41,6 +41,7 @@ export interface Alarm {
   since: string; // ISO 8601, UTC
   state: JobState; // in which it came; "faulted": the latch of the start
   advice?: string;
+  kind?: string; // what it is about; "start_latch": nothing happened, the program has just started
 }
 
 export interface StageStatus {

@@ -37,8 +37,9 @@ export function Progress({ status }: { status: Status }) {
   );
 }
 
-function layerWords({ layer, layers, committed, attempt }: Status): string {
-  if (layer > 0 && committed < layers) {
+function layerWords({ state, layer, layers, committed, attempt }: Status): string {
+  const atWork = state !== "idle" && state !== "done" && state !== "aborted";
+  if (atWork && layer > 0 && committed < layers) {
     const tries = attempt > 1 ? `, attempt ${attempt}` : "";
     return `Layer ${fixed(layer)} of ${fixed(layers)}${tries}`;
   }

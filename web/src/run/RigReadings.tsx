@@ -11,6 +11,9 @@ export function RigReadings({ status }: { status: Status }) {
     <section class="panel rig" aria-label="Rig">
       <h2>Rig</h2>
       <InterlockList status={status} />
+      {stage && !stage.answers && (
+        <p class="notice notice-warn">The controller does not answer: this is what it said last.</p>
+      )}
       {stage ? (
         <dl class="readings">
           <Reading

@@ -40,7 +40,7 @@ export function RunView() {
           </div>
         </>
       ) : (
-        <h1>{lost ? "The rig’s computer does not answer." : "Connecting…"}</h1>
+        <h1>{lost ? "Nothing is known of the rig." : "Connecting…"}</h1>
       )}
     </main>
   );

@@ -12,8 +12,10 @@ export interface Interlock {
  * controller: where the two disagree, that is said.
  */
 export function interlocksOf(status: Status): Interlock[] {
-  const { lines, controller } = status.interlocks;
+  const { lines } = status.interlocks;
   const answers = status.stage?.answers ?? false;
+  // What a silent controller said before is not known to be so now.
+  const controller = answers ? status.interlocks.controller : null;
   return [
     twice("E-stop", lines.estop_pressed, controller?.estop_pressed, "pressed", "released"),
     twice("Door", lines.door_open, controller?.door_open, "open", "closed"),

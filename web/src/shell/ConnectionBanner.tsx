@@ -7,7 +7,7 @@ import { now } from "./now";
 
 /** Says at once that what is shown is not what is, and since when. */
 export function ConnectionBanner() {
-  const { state, why, since, retryAt } = connection.value;
+  const { state, why, since, heardAt, retryAt } = connection.value;
 
   useEffect(() => {
     document.body.dataset.connection = state;
@@ -17,7 +17,7 @@ export function ConnectionBanner() {
     <div class="connection-banner" role="status" aria-live="polite">
       {state === "lost" && (
         <>
-          <strong>Connection lost</strong>
+          <strong>{heardAt > 0 ? "Connection lost" : "Not connected"}</strong>
           <span>
             {why} <LostFor since={since} retryAt={retryAt} />
           </span>
@@ -34,8 +34,7 @@ function LostFor({ since, retryAt }: { since: number; retryAt: number }) {
   const wait_s = Math.ceil((retryAt - now.value) / 1000);
   return (
     <span aria-hidden="true">
-      Lost for {durationWords(lost_s)};{" "}
-      {wait_s > 0 ? `tried again in ${wait_s} s.` : "being tried now."}
+      For {durationWords(lost_s)} now; {wait_s > 0 ? `tried again in ${wait_s} s.` : "being tried."}
     </span>
   );
 }

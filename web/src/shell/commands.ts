@@ -44,7 +44,7 @@ export const commands: Command[] = [
     label: "Abort",
     kind: "danger",
     about:
-      "The wheel stops at once and is parked, and the job ends. A layer that is ground but not yet stored may be lost for ever.",
+      "The wheel stops at once and is parked, and the run ends; a photograph that is being taken is given up. Pause stops the rig without giving anything up.",
     confirmWord: "abort",
   },
 ];

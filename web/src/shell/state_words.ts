@@ -88,7 +88,9 @@ export const wordsOf = (state: JobState): Words =>
  * True for the alarm that the program starts with: nothing went wrong, but nothing moves before
  * somebody has looked.
  */
-export const isStartLatch = (status: Status): boolean => status.alarm?.state === "faulted";
+export function isStartLatch({ alarm }: Status): boolean {
+  return alarm?.kind ? alarm.kind === "start_latch" : alarm?.state === "faulted";
+}
 
 /** The whole of it in a sentence or two. */
 export function stateSentence(status: Status): string {

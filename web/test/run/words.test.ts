@@ -88,6 +88,13 @@ describe("interlocksOf", () => {
     expect(shown["Door"]).toEqual(["closed", true]);
   });
 
+  it("do not go by what a silent controller said before", () => {
+    const shown = named(good, { answers: false } as never);
+    expect(shown["Axes"]).toEqual(["not known", null]);
+    const byLine = { ...good, lines: { estop_pressed: true, door_open: false } };
+    expect(named(byLine, { answers: false } as never)["E-stop"]).toEqual(["pressed", false]);
+  });
+
   it("tell of a controller that stopped the rig by itself", () => {
     const tripped = { ...good, controller: { ...good.controller!, watchdog_tripped: true } };
     expect(named(tripped)["Watchdog"]).toEqual(["has stopped the rig", false]);

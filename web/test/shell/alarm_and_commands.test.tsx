@@ -151,7 +151,7 @@ describe("alarm and commands", () => {
         state: "lost",
         why: "The server does not answer.",
         since: Date.now(),
-        heardAt: 0,
+        heardAt: Date.now(),
         retryAt: Date.now() + 3000,
       };
     });

@@ -53,6 +53,14 @@ describe("the state in words", () => {
     expect(stateSentence(paused)).not.toMatch(/It pauses/);
   });
 
+  it("does not take for the start what comes after it", () => {
+    const stuck = { ...alarm, state: "faulted", kind: "controller" } as const;
+    expect(stateSentence(aStatus({ state: "faulted", alarm: stuck }))).toContain("has stopped");
+    expect(alarmKey(aStatus({ alarm: stuck }))).not.toBe("");
+    const start = { ...stuck, kind: "start_latch" } as const;
+    expect(alarmKey(aStatus({ alarm: start }))).toBe("");
+  });
+
   it("does not call the start an accident", () => {
     const started = aStatus({ state: "faulted", alarm: { ...alarm, state: "faulted" } });
     const stopped = aStatus({ state: "faulted", alarm });
