@@ -35,8 +35,8 @@ export function AttemptsPanel({ layer, thicknessUm, detail, trouble, chosen, onC
       )}
       {detail && detail.attempts.length === 0 && (
         <p class="notice">
-          There are no measurements of this layer: the sample has no journal, as one that was
-          imported from images. The images themselves are all here.
+          This sample was imported from images: it has no journal, so there are no measurements and
+          no verdicts. The images themselves are all here.
         </p>
       )}
       {detail && detail.attempts.length > 0 && (
