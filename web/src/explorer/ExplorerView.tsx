@@ -44,7 +44,7 @@ export function ExplorerView() {
       <div class="explorer-controls">
         <PlaneControls state={state} />
         <SectionControls state={state} tools={tools} />
-        <section class="panel controls" aria-labelledby="series-title">
+        <section class="panel explorer-panel" aria-labelledby="series-title">
           <h2 id="series-title">Series</h2>
           <SeriesFields state={state} player={player} />
         </section>

@@ -21,9 +21,9 @@ export function PlaneControls({ state }: Props) {
   const along = isAlongLayers(placed.plane);
   const layer = layerAt(cuboid, along ? placed.offset : placed.through[2]);
   return (
-    <section class="panel controls" aria-labelledby="plane-title">
+    <section class="panel explorer-panel" aria-labelledby="plane-title">
       <h2 id="plane-title">Plane</h2>
-      <div class="shortcuts" role="group" aria-label="Shortcuts">
+      <div class="plane-shortcuts" role="group" aria-label="Shortcuts">
         <Button aria-pressed={along} onClick={() => state.toLayer(layer)}>
           Along layers
         </Button>
@@ -79,7 +79,7 @@ export function PlaneControls({ state }: Props) {
         unit="µm"
         onChange={(offset) => state.setOffset(offset)}
       />
-      <div class="nudges" role="group" aria-label="One step">
+      <div class="plane-steps" role="group" aria-label="One step">
         <Button onClick={() => state.nudge(-1)}>− 1 step</Button>
         <Button onClick={() => state.nudge(1)}>+ 1 step</Button>
       </div>

@@ -1,4 +1,5 @@
 import { Button } from "../ui/Button";
+import { fixed } from "../ui/numbers";
 import { speeds } from "./series_player";
 import type { SeriesPlayer } from "./series_player";
 
@@ -11,8 +12,10 @@ export function PlayerBar({ player }: Props) {
   const frames = player.frames.value;
   const current = player.current.value;
   const open = frames.length > 0;
+  const turns = player.choice.value.kind === "rotate";
+  const words = current ? `${fixed(current.value, 1)}${turns ? "°" : "\u00a0µm"}` : "";
   return (
-    <div class="player-bar" role="group" aria-label="Series">
+    <div class="player-bar" role="group" aria-label="Player">
       {player.playing.value ? (
         <Button onClick={() => player.pause()}>Pause</Button>
       ) : (
@@ -24,14 +27,14 @@ export function PlayerBar({ player }: Props) {
             type="range"
             class="player-scrub"
             aria-label="Frame of the series"
-            aria-valuetext={current?.label}
+            aria-valuetext={words}
             min={0}
             max={frames.length - 1}
             step={1}
             value={player.index.value}
             onInput={(event) => void player.scrub(event.currentTarget.valueAsNumber)}
           />
-          <span class="player-label">{current?.label}</span>
+          <span class="player-label">{words}</span>
           <label class="player-speed">
             <span class="visually-hidden">Speed</span>
             <select

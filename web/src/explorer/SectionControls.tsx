@@ -20,7 +20,7 @@ export function SectionControls({ state, tools }: Props) {
   const edges = state.placed.value?.polygon.length ?? 0;
   const rectangle = state.rectangle.value;
   return (
-    <section class="panel controls" aria-labelledby="picture-title">
+    <section class="panel explorer-panel" aria-labelledby="picture-title">
       <h2 id="picture-title">Picture</h2>
       <Field
         label="Rectangle"

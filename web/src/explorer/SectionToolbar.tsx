@@ -6,7 +6,7 @@ import { leastSpacing } from "./geometry/cuboid";
 import { neuroglancerLink } from "./neuroglancer";
 import { fetchOutline } from "./section_fetch";
 import type { SectionTools } from "./section_tools";
-import { zoomAbout } from "./SectionView";
+import { zoomAbout } from "./section_zoom";
 import { linkOf } from "./use_link";
 import { viewQuery } from "./view_hash";
 

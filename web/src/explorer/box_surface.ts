@@ -1,5 +1,7 @@
 import type { Vector3 } from "./geometry/vector3";
-import { along, dot, subtract } from "./geometry/vector3";
+import { along, dot, scale, subtract } from "./geometry/vector3";
+import { unprojected } from "./orbit_camera";
+import type { Projection } from "./orbit_camera";
 
 /** Where a line enters the box from (0, 0, 0) to `far`, and where it leaves it. */
 export function crossings(
@@ -62,4 +64,14 @@ function nearestToLine(start: Vector3, direction: Vector3, far: Vector3): Vector
     point = intoBox(onLine, far);
   }
   return point;
+}
+
+/** The point of the surface under a place of the screen: `surfacePoint` along the line of sight. */
+export function surfaceUnder(
+  view: Projection,
+  at: readonly [number, number],
+  far: Vector3,
+  before: Vector3,
+): Vector3 {
+  return surfacePoint(unprojected(view, at), scale(-1, view.axes.towards), far, before);
 }

@@ -85,7 +85,12 @@ export function texturedPolygon({
   });
 }
 
-/** A label outside the middle of the lowest of the edges that an axis has on the screen. */
+const roomForLabel = 60; // along an edge, pixels
+
+/**
+ * A label outside the middle of the lowest of the edges that an axis has on the screen; below the
+ * end of one that is too short for it.
+ */
 export function axisLabels(
   far: Vector3,
   project: (point: Vector3) => readonly [number, number],
@@ -94,16 +99,19 @@ export function axisLabels(
   const [middleX, middleY] = project([far[0] / 2, far[1] / 2, far[2] / 2]);
   return ([0, 1, 2] as const).map((axis) => {
     const bit = 1 << axis;
-    const middles = edges
+    const places = edges
       .filter(([i, j]) => (i ^ j) === bit)
       .map(([i, j]) => {
-        const [ax, ay] = project(points[i]);
-        const [bx, by] = project(points[j]);
-        return { x: (ax + bx) / 2, y: (ay + by) / 2 };
+        const [a, b] = [project(points[i]), project(points[j])];
+        const short = Math.hypot(a[0] - b[0], a[1] - b[1]) < roomForLabel;
+        const lower = a[1] > b[1] ? a : b;
+        return short
+          ? { x: lower[0], y: lower[1] }
+          : { x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2 };
       });
     const outward = ({ x, y }: { x: number; y: number }) =>
-      Math.hypot(x - middleX, y - middleY) + 0.6 * (y - middleY) - 0.2 * (x - middleX);
-    const best = middles.reduce((a, b) => (outward(b) > outward(a) + 1e-6 ? b : a));
+      Math.hypot(x - middleX, y - middleY) + 0.6 * (y - middleY) + 0.2 * (x - middleX);
+    const best = places.reduce((a, b) => (outward(b) > outward(a) + 1e-6 ? b : a));
     const away = Math.hypot(best.x - middleX, best.y - middleY) || 1;
     return {
       axis,

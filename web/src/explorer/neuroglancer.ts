@@ -39,7 +39,7 @@ export function neuroglancerLink(
     ? sectionBasis("layer", placed.plane)
     : { p: [1, 0, 0] as const, q: [0, 1, 0] as const };
   const away = cross(p, q);
-  const [x, y, z] = sample.spacing_um.map((um) => [um * 1e-6, "m"]);
+  const [x, y, z] = sample.spacing_um.map((um) => [um / 1e6, "m"]);
   const state = {
     dimensions: { x, y, z },
     position: [middle[0] / dx, middle[1] / dy, middle[2] / dz],

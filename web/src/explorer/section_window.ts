@@ -24,9 +24,9 @@ export function fittingPixel(frame: PlaneRectangle, width: number, height: numbe
   return Math.max(across, down) || 1;
 }
 
-/** Where voxels are larger than the screen's pixels, all are equally many pixels large. */
+/** Where voxels are larger than the screen's pixels, every two are equally many pixels large. */
 export const evenPixel = (fitting: number, voxel: number): number =>
-  fitting < voxel ? voxel / Math.floor(voxel / fitting) : fitting;
+  fitting < voxel ? (2 * voxel) / Math.floor((2 * voxel) / fitting) : fitting;
 
 export function wholeWindow(
   frame: PlaneRectangle,

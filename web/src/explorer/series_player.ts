@@ -116,6 +116,7 @@ export class SeriesPlayer {
       this.query = { ...query, ...choicesQuery(choices) };
       this.loaded = name;
       this.frames.value = frames;
+      for (const { cuts, index } of frames) if (!cuts) this.pictures.set(index, null);
       return frames.length > 0;
     } catch (error) {
       if (!isAbort(error)) this.failure.value = sentenceOf(error);
@@ -159,7 +160,6 @@ export class SeriesPlayer {
   }
 
   private fetchAhead(): void {
-    this.frames.value.forEach(({ cuts }, index) => cuts || this.pictures.set(index, null));
     const wanted = Array.from({ length: ahead }, (_, i) => this.index.value + i).filter(
       (index) => index < this.frames.value.length && !this.pictures.has(index),
     );
@@ -216,9 +216,9 @@ export class SeriesPlayer {
     const shown = this.state.frame.value?.picture;
     for (const [old, other] of this.pictures) {
       if (this.pictures.size <= kept) return;
-      if (other === shown && other !== null) continue;
+      if (other === null || other === shown) continue;
       this.pictures.delete(old);
-      other?.image.close();
+      other.image.close();
     }
   }
 
@@ -229,7 +229,7 @@ export class SeriesPlayer {
 
   private async sharpen(): Promise<void> {
     const index = this.index.value;
-    if (this.playing.value || !this.frames.value[index]) return;
+    if (this.playing.value || !this.frames.value[index]?.cuts) return;
     try {
       const picture = await this.picture(index, true, this.abort.signal);
       if (this.playing.value || index !== this.index.value || !this.frames.value.length) {

@@ -35,9 +35,10 @@ describe("the window on a section", () => {
     expect(pixelAt(whole, [0, 0])[0]).toBeCloseTo(0.5, 9);
   });
 
-  it("shows a small section by whole pixels a voxel", () => {
+  it("shows a small section by whole pixels for every two voxels", () => {
     expect(evenPixel(9.98, 10)).toBe(10);
-    expect(evenPixel(3, 10)).toBe(10 / 3);
+    expect(evenPixel(6, 10)).toBe(20 / 3);
+    expect(evenPixel(5, 10)).toBe(5);
     expect(evenPixel(12, 10)).toBe(12);
   });
 
