@@ -76,7 +76,10 @@ test("once it is released the alarm is acknowledged, with a reason that goes int
   const { page } = tab;
   rig.hand("release", "estop");
   await rig.reaches("released", ({ interlocks }) => !interlocks.lines.estop_pressed);
-  const sentence = await command(page, "Acknowledge", { token: rig.token, reason: "a sleeve caught it" });
+  const sentence = await command(page, "Acknowledge", {
+    token: rig.token,
+    reason: "a sleeve caught it",
+  });
   assert.match(sentence, /^Done: /);
   await alert().waitFor({ state: "detached" });
   assert.doesNotMatch(await page.title(), /ALARM/);
@@ -105,5 +108,4 @@ test("the run is resumed from the page and ends whole", async () => {
   assert.equal((await rig.status()).committed, rig.layers);
 });
 
-test("nothing failed and nothing was complained of", () =>
-  tab.assertNoFaults([askedForToken]));
+test("nothing failed and nothing was complained of", () => tab.assertNoFaults([askedForToken]));

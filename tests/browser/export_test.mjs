@@ -7,6 +7,7 @@ import { Tab, launch } from "./browser.mjs";
 import { drawnByTool, sharpSection } from "./explorer.mjs";
 import { askedForToken, giveToken } from "./operator.mjs";
 import { Rig } from "./rig.mjs";
+import { until } from "./until.mjs";
 
 let rig;
 let browser;
@@ -33,25 +34,30 @@ async function openExport() {
   return dialog;
 }
 
-/** Its JSON as the rig has it, and what was downloaded from the page. */
-async function exported(dialog, extension) {
+const exportsOfRig = async () => (await (await rig.ask("/api/v1/exports")).json()).exports;
+
+/** Presses "Export" and waits for the end: its JSON, and the file that is then downloaded. */
+async function exported(dialog, extension, token) {
   const { page } = tab;
-  const job = page.locator('[data-role="export"][data-state="done"]').first();
-  await job.waitFor();
-  const id = await job.getAttribute("data-id");
+  const before = (await exportsOfRig()).length;
+  await dialog.getByRole("button", { name: "Export", exact: true }).click();
+  if (token) await giveToken(page, token);
+  await until("an export", async () => (await exportsOfRig()).length > before);
+  const [{ id }] = await exportsOfRig();
+  const job = page.locator(`[data-role="export"][data-id="${id}"][data-state="done"]`);
+  await job.waitFor({ timeout: 240_000 });
   const state = await (await rig.ask(`/api/v1/exports/${id}`)).json();
   const { name, bytes } = state.files.find((file) => file.name.endsWith(extension));
   const started = page.waitForEvent("download");
-  await job
-    .getByRole("link", { name: new RegExp(name) })
-    .or(job.getByRole("button", { name: new RegExp(name) }))
-    .first()
-    .click();
+  const link = { name: new RegExp(name) };
+  await job.getByRole("link", link).or(job.getByRole("button", link)).first().click();
   const download = await started;
-  assert.equal(download.suggestedFilename(), name);
-  const content = fs.readFileSync(await download.path());
+  // What is saved beside others also names its sample.
+  assert.ok(download.suggestedFilename().endsWith(name), download.suggestedFilename());
+  const file = await download.path();
+  const content = fs.readFileSync(file);
   assert.equal(content.length, bytes);
-  return { state, content, path: await download.path() };
+  return { state, content, file };
 }
 
 test("a PNG at full resolution is, byte by byte, the tool's", async () => {
@@ -59,9 +65,7 @@ test("a PNG at full resolution is, byte by byte, the tool's", async () => {
   await tab.visit(rig.url, "#/explorer");
   await sharpSection(page);
   const dialog = await openExport();
-  await dialog.getByRole("button", { name: "Export", exact: true }).click();
-  await giveToken(page, rig.token);
-  const { state, content } = await exported(dialog, ".png");
+  const { state, content } = await exported(dialog, ".png", rig.token);
   assert.ok(drawnByTool(state.command).bytes.equals(content), state.command);
 });
 
@@ -74,8 +78,7 @@ test("a film of a rotation has the frames that were asked for", async () => {
     .first()
     .check();
   await dialog.getByLabel(/^Film/).first().check();
-  await dialog.getByRole("button", { name: "Export", exact: true }).click();
-  const { state, path } = await exported(dialog, ".mp4");
+  const { state, file } = await exported(dialog, ".mp4");
   const { stdout, stderr } = spawnSync(
     "ffprobe",
     [
@@ -88,7 +91,7 @@ test("a film of a rotation has the frames that were asked for", async () => {
       "stream=nb_read_frames",
       "-of",
       "csv=p=0",
-      path,
+      file,
     ],
     { encoding: "utf8" },
   );
