@@ -15,6 +15,7 @@ const firstFace = 1000; // µm
 
 /** What a test may choose of its rig; lengths in micrometres. */
 const usual = {
+  sample: "sample",
   layers: 12,
   width: 240,
   height: 180,
@@ -56,7 +57,7 @@ export class Rig {
     return this.#plan.layers;
   }
   get sample() {
-    return path.join(this.folder, "sample");
+    return path.join(this.folder, this.#plan.sample);
   }
   get token() {
     return fs.readFileSync(path.join(this.folder, "token"), "utf8").trim();
@@ -98,7 +99,7 @@ first_face = ${firstFace}
   }
 
   #writeConfiguration(listen) {
-    const { layers, pixel, thickness, service } = this.#plan;
+    const { sample, layers, pixel, thickness, service } = this.#plan;
     fs.writeFileSync(
       path.join(this.folder, "rig.toml"),
       `[stage]
@@ -113,7 +114,7 @@ backend = "socket"
 endpoint = "unix://rig.socket"
 exposure_us = 10000
 [job]
-sample = "sample"
+sample = "${sample}"
 layers = ${layers}
 layer_thickness_um = ${thickness}
 pixel_um = [${pixel}, ${pixel}]

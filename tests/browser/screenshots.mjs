@@ -40,6 +40,7 @@ async function take(page, name) {
   const whole = path.join(os.tmpdir(), `biotomy-${process.pid}-${name}.png`);
   const picture = path.join(folder, `page-${name}.png`);
   try {
+    await page.mouse.move(0, 0);
     await page.screenshot({ path: whole });
     reduced(whole, picture);
   } finally {
@@ -55,11 +56,12 @@ const settled = (page) => page.waitForLoadState("load").then(() => page.waitForT
 
 const rig = await Rig.start({
   layers,
+  sample: "knee",
   width: 800,
   height: 600,
   pixel: 10,
   thickness: 20,
-  timeScale: 100,
+  timeScale: 25,
   scenario: debris,
 });
 const browser = await launch();
@@ -99,11 +101,10 @@ try {
   await take(page, "layers");
 
   await rig.reaches("the end", ({ state }) => state === "done", 600);
-  await page.goto(`${rig.url}/#/explorer`);
-  const first = await sharpSection(page);
-  const command = await first.getAttribute("data-command");
-  await page.getByRole("button", { name: "Diagonal" }).click();
-  await sharpSection(page, command);
+  // Cuts the block in a hexagon.
+  const points = "3995,0,1180 0,2995,1180 7990,0,590";
+  await page.goto(`${rig.url}/#/explorer?points=${encodeURIComponent(points)}`);
+  await sharpSection(page);
   await until("the block in 3D", () => page.locator("[data-handles]").isVisible());
   await settled(page);
   await take(page, "explorer");
