@@ -1,16 +1,16 @@
 import { useSignal, type Signal } from "@preact/signals";
 import { useMemo, useRef } from "preact/hooks";
 
-import type { Attempt, LayerDetail, Sample, Sharpness } from "../api/types";
+import type { Attempt, LayerDetail, Sample } from "../api/types";
 import { Button } from "../ui/Button";
-import { micrometres, significant } from "../ui/numbers";
-import { useSharpness } from "./layer_detail";
+import { micrometres, percent, significant } from "../ui/numbers";
 import { PicturePane } from "./PicturePane";
 import { zoomBy, zoomStep, zoomToPixels } from "./picture_controls";
 import type { PictureScreen } from "./picture_screen";
 import { TiledLayer, WholePicture } from "./picture_source";
 import { depthText, placeDecimals, toSample, type PixelSize } from "./sample_place";
 import { tileAt } from "./sharpness_map";
+import { useShownMap, type MapKind, type ShownMap } from "./sharpness_overlay";
 import { SharpnessTools } from "./SharpnessTools";
 import { slugWords, verdictWords } from "./verdict_words";
 import type { Point, Viewport } from "./viewport";
@@ -26,6 +26,7 @@ interface Props {
   chosen: Attempt | null;
   viewport: Signal<Viewport | null>;
   map: Signal<boolean>;
+  mapKind: Signal<MapKind>;
   opacity: Signal<number>;
   /** Where keys act on. */
   screen: { current: PictureScreen | null };
@@ -36,22 +37,24 @@ interface Props {
 export function LayerStage(props: Props) {
   const { layer, there, sample, chosen, viewport } = props;
   const cursor = useSignal<Point | null>(null);
-  const sharpness = useSharpness(props.map.value && there ? layer : null);
+  const sharpness = useShownMap(props.map.value && there ? layer : null, props.mapKind.value);
   const pixel = { x: sample.spacing_um[0], y: sample.spacing_um[1] };
   const shape = useMemo(
     () => ({ width: sample.size[0], height: sample.size[1], stretch: pixel.y / pixel.x }),
     [sample.size[0], sample.size[1], pixel.x, pixel.y],
   );
   const ahead = props.neighbours.map((other) => new TiledLayer(other, shape).coarsest()).join(" ");
-  const map = sharpness.value;
+  const { shown } = sharpness;
   const accepted = useMemo(
     () => ({
       source: new TiledLayer(layer, shape),
       shape,
-      overlay: map && { map, opacity: props.opacity.value },
+      overlay: shown?.range
+        ? { map: shown.map, range: shown.range, opacity: props.opacity.value }
+        : null,
       ahead: ahead === "" ? [] : ahead.split(" "),
     }),
-    [layer, shape, map, props.opacity.value, ahead],
+    [layer, shape, shown?.map, shown?.range, props.opacity.value, ahead],
   );
   const other = chosen && verdictWords(chosen.verdict).accepted ? null : chosen;
   const image = other?.image ?? null;
@@ -120,7 +123,7 @@ export function LayerStage(props: Props) {
           cursor={cursor}
           pixel={pixel}
           depth={depthText(layer, sample.spacing_um[2])}
-          map={map}
+          map={shown}
         />
       </div>
       <div class="stage-tools">
@@ -140,6 +143,8 @@ export function LayerStage(props: Props) {
           <SharpnessTools
             shown={props.map.value}
             onShow={(shown) => (props.map.value = shown)}
+            kind={props.mapKind.value}
+            onKind={(kind) => (props.mapKind.value = kind)}
             opacity={props.opacity.value}
             onOpacity={(opacity) => (props.opacity.value = opacity)}
             answer={sharpness}
@@ -181,7 +186,7 @@ interface PlaceProps {
   cursor: Signal<Point | null>;
   pixel: PixelSize;
   depth: string;
-  map: Sharpness | null;
+  map: ShownMap | null;
 }
 
 /** Where in the sample the cursor is, and how sharp it is there. */
@@ -199,8 +204,11 @@ function CursorPlace({ cursor, pixel, depth, map }: PlaceProps) {
   return <p class="stage-place">{words.join("  ")}</p>;
 }
 
-function sharpnessWords(map: Sharpness, place: Point): string {
+function sharpnessWords({ map, kind }: ShownMap, place: Point): string {
   const tile = tileAt(map, place);
   const value = tile === null ? null : map.values[tile];
-  return value === null ? "too little detail" : `sharpness ${significant(value)}`;
+  if (value === null) return "too little detail";
+  return kind === "own"
+    ? `sharpness ${significant(value)}`
+    : `${percent(value * 100)} of the layer before`;
 }

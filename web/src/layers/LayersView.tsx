@@ -1,6 +1,7 @@
 import { signal, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 
+import { sampleProgress } from "../api/live";
 import type { Attempt, LayerDetail } from "../api/types";
 import { goTo, replaceHash, route } from "../shell/route";
 import { fixed } from "../ui/numbers";
@@ -13,9 +14,11 @@ import type { LayerFilter } from "./layer_sequence";
 import "./layers.css";
 import { LayerStage } from "./LayerStage";
 import {
+  begun,
   committed,
   filter,
   highest,
+  historyTrouble,
   judged,
   marks,
   sample,
@@ -26,6 +29,7 @@ import {
 import { shiftBy, zoomBy, zoomStep, zoomToPixels } from "./picture_controls";
 import type { PictureScreen } from "./picture_screen";
 import { RejectedList } from "./RejectedList";
+import type { MapKind } from "./sharpness_overlay";
 import { StripTools } from "./StripTools";
 import { verdictWords } from "./verdict_words";
 import { useViewLink } from "./view_link";
@@ -35,6 +39,7 @@ import { itemsOfPage } from "./virtual_list";
 // They stay as they are while another view is looked at.
 const viewport = signal<Viewport | null>(null);
 const mapShown = signal(false);
+const mapKind = signal<MapKind>("own");
 const mapOpacity = signal(0.6);
 
 /** The layers as a film, one of them large, and what was found out about it. */
@@ -53,10 +58,12 @@ export function LayersView() {
 }
 
 function NoLayers() {
-  const nothing = sample.value ? "No layer has been photographed yet." : "Looking for layers…";
+  const knows = sampleProgress.value !== null;
+  const waits =
+    knows && !begun.value ? "No layer has been photographed yet." : "Looking for layers…";
   return (
     <div class="layers-none">
-      <p>{sampleTrouble.value || nothing}</p>
+      <p>{begun.value && sampleTrouble.value ? sampleTrouble.value : waits}</p>
     </div>
   );
 }
@@ -135,6 +142,7 @@ function Layers() {
           chosen={chosen}
           viewport={viewport}
           map={mapShown}
+          mapKind={mapKind}
           opacity={mapOpacity}
           screen={screen}
           onTurn={step}
@@ -147,6 +155,9 @@ function Layers() {
         </div>
       )}
       <div class="layer-strip">
+        {historyTrouble.value && (
+          <p class="notice notice-bad">What was judged is not known: {historyTrouble.value}</p>
+        )}
         <StripTools
           filter={filter.value}
           onFilter={filterBy}

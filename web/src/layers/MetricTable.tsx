@@ -1,11 +1,13 @@
 import type { Metric } from "../api/types";
 import { Table } from "../ui/Table";
-import { limitText, metricWords, valueText } from "./metric_words";
+import { limitText, metricOrder, metricWords, valueText } from "./metric_words";
 
-/** The metrics of one attempt; those beyond their limit come first. */
+/** The metrics of one attempt: those beyond their limit first, then sharpness before all else. */
 export function MetricTable({ metrics }: { metrics: readonly Metric[] }) {
   if (metrics.length === 0) return <p class="muted">Nothing was measured of this frame.</p>;
-  const ordered = [...metrics].sort((a, b) => Number(a.passed) - Number(b.passed));
+  const ordered = [...metrics].sort(
+    (a, b) => Number(a.passed) - Number(b.passed) || metricOrder(a.name) - metricOrder(b.name),
+  );
   return (
     <Table
       caption="What was measured"

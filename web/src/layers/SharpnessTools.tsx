@@ -1,16 +1,16 @@
-import type { Sharpness } from "../api/types";
-import { significant } from "../ui/numbers";
+import { percent, significant } from "../ui/numbers";
 import { Switch } from "../ui/Switch";
 import { cssColour, scaleColour } from "./colour_scale";
-import type { Answer } from "./layer_detail";
-import { shownRange } from "./sharpness_map";
+import type { MapKind, SharpnessAnswer } from "./sharpness_overlay";
 
 interface Props {
   shown: boolean;
   onShow: (shown: boolean) => void;
+  kind: MapKind;
+  onKind: (kind: MapKind) => void;
   opacity: number;
   onOpacity: (opacity: number) => void;
-  answer: Answer<Sharpness>;
+  answer: SharpnessAnswer;
 }
 
 /** The switch of the sharpness map, and what its colours mean. */
@@ -21,19 +21,28 @@ export function SharpnessTools(props: Props) {
         Sharpness map
       </Switch>
       {props.shown && (
-        <label class="sharpness-opacity">
-          Opacity{" "}
+        <>
+          <select
+            aria-label="What the map shows"
+            value={props.kind}
+            onChange={(event) => props.onKind(event.currentTarget.value as MapKind)}
+          >
+            <option value="own">this layer</option>
+            <option value="change">against the layer before</option>
+          </select>
           <input
             type="range"
+            aria-label="Opacity of the map"
+            title="Opacity of the map"
             min={0.1}
             max={1}
             step={0.05}
             value={props.opacity}
             onInput={(event) => props.onOpacity(Number(event.currentTarget.value))}
           />
-        </label>
+          <Legend answer={props.answer} />
+        </>
       )}
-      {props.shown && <Legend answer={props.answer} />}
     </div>
   );
 }
@@ -42,17 +51,17 @@ const gradient = `linear-gradient(to right, ${[0, 0.25, 0.5, 0.75, 1]
   .map((part) => cssColour(scaleColour(part)))
   .join(", ")})`;
 
-function Legend({ answer }: { answer: Answer<Sharpness> }) {
-  const map = answer.value;
-  if (answer.trouble) return <span class="bad">{answer.trouble}</span>;
-  if (!map) return <span class="muted">Measuring…</span>;
-  const range = shownRange(map);
+function Legend({ answer: { shown, trouble } }: { answer: SharpnessAnswer }) {
+  if (trouble) return <span class="bad">{trouble}</span>;
+  if (!shown) return <span class="muted">Measuring…</span>;
+  const { map, kind, range } = shown;
   if (!range) return <span class="muted">There is too little detail to measure.</span>;
+  const words = (value: number) => (kind === "own" ? significant(value) : percent(value * 100));
   return (
     <span class="legend" data-role="sharpness" title={map.measure}>
-      <span>blurred {significant(range.low)}</span>
+      <span>soft {words(range.low)}</span>
       <span class="legend-colours" style={{ background: gradient }} />
-      <span>{significant(range.high)} sharp</span>
+      <span>{words(range.high)} sharp</span>
     </span>
   );
 }

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { limitText, metricWords, valueText } from "./metric_words";
+import { limitText, metricOrder, metricWords, valueText } from "./metric_words";
 
 it.each([
   ["sharpness_ratio", 0.98765, 0.96, "0.988", "≥ 0.960"],
@@ -23,6 +23,16 @@ it.each([
 it("shows what is missing as a dash", () => {
   expect(valueText(null, metricWords("sharpness_ratio"))).toBe("–");
   expect(limitText(null, metricWords("sharpness_ratio"))).toBe("none");
+});
+
+it("puts sharpness first and what it does not know last", () => {
+  const names = ["a_new_metric", "dead_rows", "sharpness_ratio", "frost"];
+  expect(names.sort((a, b) => metricOrder(a) - metricOrder(b))).toEqual([
+    "sharpness_ratio",
+    "frost",
+    "dead_rows",
+    "a_new_metric",
+  ]);
 });
 
 it("makes a title of a name that it does not know", () => {

@@ -57,6 +57,12 @@ export function metricWords(name: string): MetricWords {
   return known.get(name) ?? { title, bound: "unknown", unit: "ratio" };
 }
 
+/** Where a metric stands among others; those that are not known come last. */
+export function metricOrder(name: string): number {
+  const place = [...known.keys()].indexOf(name);
+  return place < 0 ? known.size : place;
+}
+
 /** "98.7 %", "0.991", "1.52 px". */
 export function valueText(value: number | null, words: MetricWords): string {
   switch (words.unit) {

@@ -1,7 +1,7 @@
 import type { Sharpness } from "../api/types";
 import { cssColour, scaleColour } from "./colour_scale";
 import type { Piece } from "./picture_source";
-import { mapTile, partOf, shownRange } from "./sharpness_map";
+import { mapTile, partOf, type ValueRange } from "./sharpness_map";
 import type { Rectangle } from "./tile_pyramid";
 import type { Shape, Viewport } from "./viewport";
 
@@ -48,6 +48,8 @@ class Placement {
 
 export interface Overlay {
   readonly map: Sharpness;
+  /** Of the colours. */
+  readonly range: ValueRange;
   /** From 0 to 1. */
   readonly opacity: number;
 }
@@ -81,10 +83,8 @@ export function paintPicture(
 function paintMap(
   context: CanvasRenderingContext2D,
   placement: Placement,
-  { map, opacity }: Overlay,
+  { map, range, opacity }: Overlay,
 ): void {
-  const range = shownRange(map);
-  if (!range) return;
   context.globalAlpha = opacity;
   map.values.forEach((value, number) => {
     if (value === null) return;

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 
 import type { Sharpness } from "../api/types";
-import { mapTile, partOf, shownRange, tileAt } from "./sharpness_map";
+import { changeMap, changeRange, mapTile, partOf, shownRange, tileAt } from "./sharpness_map";
 
 function mapOf(values: (number | null)[], columns: number): Sharpness {
   const rows = values.length / columns;
@@ -33,6 +33,23 @@ describe("a value", () => {
 
   it("stands in the middle when all are alike", () => {
     expect(partOf(3, { low: 3, high: 3 })).toBe(0.5);
+  });
+});
+
+describe("the change from the layer before", () => {
+  it("is a quotient, tile by tile", () => {
+    const change = changeMap(mapOf([1, 3, null, 4], 2), mapOf([2, 2, 2, null], 2));
+    expect(change.values).toEqual([0.5, 1.5, null, null]);
+    expect(change.columns).toBe(2);
+  });
+
+  it("is in the middle of the scale where nothing changed", () => {
+    expect(partOf(1, changeRange)).toBe(0.5);
+  });
+
+  it("is unknown where there was no detail, or the tiles were others", () => {
+    expect(changeMap(mapOf([1, 1], 2), mapOf([0, -0.1], 2)).values).toEqual([null, null]);
+    expect(changeMap(mapOf([1, 1], 2), mapOf([1, 1], 1)).values).toEqual([null, null]);
   });
 });
 

@@ -24,6 +24,22 @@ export function shownRange(map: Sharpness): ValueRange | null {
   return high > low ? { low, high } : { low: at(0), high: at(1) };
 }
 
+/** Half as sharp, as sharp, half as sharp again: the middle of the scale is "as before". */
+export const changeRange: ValueRange = { low: 0.5, high: 1.5 };
+
+/**
+ * Each tile's value over that of the layer before: tissue differs in detail from place to place, but
+ * little from layer to layer. Null where one of them has none, or where the tiles are others.
+ */
+export function changeMap(map: Sharpness, before: Sharpness): Sharpness {
+  const alike = map.columns === before.columns && map.rows === before.rows;
+  const values = map.values.map((value, tile) => {
+    const old = alike ? before.values[tile] : null;
+    return value === null || old === null || old <= 0 ? null : value / old;
+  });
+  return { ...map, values };
+}
+
 /** Where a value stands between the ends of the scale, from 0 to 1. */
 export function partOf(value: number, range: ValueRange): number {
   if (range.high <= range.low) return 0.5;
