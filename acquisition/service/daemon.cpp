@@ -34,8 +34,8 @@
 #include "acquisition/service/notifications/channels.hpp"
 #include "acquisition/service/notifications/notifier.hpp"
 #include "acquisition/service/notifications/run_watch.hpp"
-#include "acquisition/service/room_for_exports.hpp"
 #include "acquisition/service/service_manager.hpp"
+#include "acquisition/service/spare_room.hpp"
 #include "acquisition/service/status_json.hpp"
 #include "acquisition/service/stop_signals.hpp"
 #include "acquisition/service/watched_worker.hpp"
@@ -242,8 +242,7 @@ int run_daemon(const Configuration& configuration) {
   ViewerSettings viewer = configuration.service.viewer;
   viewer.bytes_to_spare = [&, folder = viewer.exports.empty() ? plan.sample.parent_path()
                                                               : viewer.exports] {
-    return room_for_exports(folder, plan.sample, *board.look(),
-                            configuration.job.limits.disk_reserve_layers);
+    return bytes_to_spare(folder, plan.sample, *board.look(), configuration.job.limits);
   };
   SampleApi sample(plan.sample, viewer);
   sample.on_export([&feed](const std::string& json) { tell_export(feed, json); });

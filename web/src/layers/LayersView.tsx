@@ -1,7 +1,255 @@
+import { signal, useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+
+import { sampleProgress } from "../api/live";
+import type { Attempt, LayerDetail } from "../api/types";
+import { goTo, replaceHash, route } from "../shell/route";
+import { fixed } from "../ui/numbers";
+import { AttemptsPanel } from "./AttemptsPanel";
+import { FilmStrip, stripPitch } from "./FilmStrip";
+import { useLayerDetail } from "./layer_detail";
+import { keepsKey, layerKey, type LayerKey } from "./layer_keys";
+import { layerHash, layerLink } from "./layer_link";
+import type { LayerFilter } from "./layer_sequence";
+import "./layers.css";
+import { LayerStage } from "./LayerStage";
+import {
+  begun,
+  committed,
+  filter,
+  highest,
+  historyTrouble,
+  judged,
+  marks,
+  sample,
+  sampleTrouble,
+  sequence,
+  watchLayers,
+} from "./layers_state";
+import { shiftBy, zoomBy, zoomStep, zoomToPixels } from "./picture_controls";
+import type { PictureScreen } from "./picture_screen";
+import { RejectedList } from "./RejectedList";
+import type { MapKind } from "./sharpness_overlay";
+import { StripTools } from "./StripTools";
+import { verdictWords } from "./verdict_words";
+import { useViewLink } from "./view_link";
+import type { Viewport } from "./viewport";
+import { itemsOfPage } from "./virtual_list";
+
+// They stay as they are while another view is looked at.
+const viewport = signal<Viewport | null>(null);
+const mapShown = signal(false);
+const mapKind = signal<MapKind>("own");
+const mapOpacity = signal(0.6);
+
+/** The layers as a film, one of them large, and what was found out about it. */
 export function LayersView() {
+  useEffect(watchLayers, []);
+  const known = sample.value;
+  const pixel = known && { x: known.spacing_um[0], y: known.spacing_um[1] };
+  useViewLink(viewport, pixel);
+
   return (
-    <main id="main" class="view" data-view="layers" tabIndex={-1}>
-      <h1>Layers</h1>
+    <main id="main" class="view layers" data-view="layers" tabIndex={-1}>
+      <h1 class="visually-hidden">Layers</h1>
+      {known && highest.value > 0 ? <Layers /> : <NoLayers />}
     </main>
+  );
+}
+
+function NoLayers() {
+  const knows = sampleProgress.value !== null;
+  const waits =
+    knows && !begun.value ? "No layer has been photographed yet." : "Looking for layers…";
+  return (
+    <div class="layers-none">
+      <p>{begun.value && sampleTrouble.value ? sampleTrouble.value : waits}</p>
+    </div>
+  );
+}
+
+function Layers() {
+  const link = layerLink(route.value);
+  const newest = committed.value || highest.value;
+  const layer = link.layer ?? newest;
+  const exists = layer <= highest.value;
+  const answer = useLayerDetail(exists ? layer : null);
+  const chosen = chosenAttempt(answer.value, link.attempt, filter.value === "rejected");
+  const screen = useRef<PictureScreen | null>(null);
+  const stripExtent = useRef(0);
+  const known = sample.value;
+
+  const choose = (number: number) =>
+    replaceHash(layerHash({ layer: number, attempt: null }, route.peek().query));
+  const chooseAt = (index: number) => {
+    const { count } = sequence.value;
+    if (count > 0) choose(sequence.value.at(Math.min(Math.max(index, 0), count - 1)));
+  };
+  const step = (by: number) => chooseAt(sequence.value.nearest(layer) + by);
+  const filterBy = (next: LayerFilter) => {
+    filter.value = next;
+    const { count, nearest, at } = sequence.value;
+    const shown = count > 0 ? at(nearest(layer)) : layer;
+    if (shown !== layer) choose(shown);
+  };
+  const chooseAttempt = (attempt: Attempt) =>
+    replaceHash(layerHash({ layer, attempt: attempt.attempt }, route.peek().query));
+
+  const act = (key: LayerKey) => {
+    switch (key.kind) {
+      case "step":
+        return step(key.by);
+      case "page":
+        return step(
+          key.by *
+            itemsOfPage({ count: sequence.value.count, pitch: stripPitch }, stripExtent.current),
+        );
+      case "first":
+        return chooseAt(0);
+      case "last":
+        return chooseAt(sequence.value.count - 1);
+      case "whole":
+        viewport.value = null;
+        return;
+    }
+    if (!screen.current) return;
+    switch (key.kind) {
+      case "larger":
+        return zoomBy(screen.current, zoomStep);
+      case "smaller":
+        return zoomBy(screen.current, 1 / zoomStep);
+      case "pixels":
+        return zoomToPixels(screen.current);
+      case "shift":
+        return shiftBy(screen.current, key.parts);
+    }
+  };
+  useKeys(act);
+
+  if (!known) return null;
+  const neighbours = [layer + 1, layer - 1].filter(
+    (other) => other >= 1 && other <= committed.value,
+  );
+  return (
+    <>
+      {exists ? (
+        <LayerStage
+          layer={layer}
+          there={layer <= committed.value}
+          neighbours={neighbours}
+          sample={known}
+          detail={answer.value}
+          chosen={chosen}
+          viewport={viewport}
+          map={mapShown}
+          mapKind={mapKind}
+          opacity={mapOpacity}
+          screen={screen}
+          onTurn={step}
+        />
+      ) : (
+        <div class="stage">
+          <p class="notice">
+            There is no layer {fixed(layer)} yet: the last is {fixed(highest.value)}.
+          </p>
+        </div>
+      )}
+      <div class="layer-strip">
+        {historyTrouble.value && (
+          <p class="notice notice-bad">What was judged is not known: {historyTrouble.value}</p>
+        )}
+        <StripTools
+          filter={filter.value}
+          onFilter={filterBy}
+          judged={judged.value}
+          count={sequence.value.count}
+          committed={committed.value}
+          highest={highest.value}
+          following={link.layer === null}
+          onFollow={(following) =>
+            goTo(layerHash({ layer: following ? null : layer, attempt: null }, route.peek().query))
+          }
+          onJump={choose}
+          onStep={step}
+        />
+        <FilmStrip
+          sequence={sequence.value}
+          filter={filter.value}
+          committed={committed.value}
+          marks={marks.value}
+          chosen={exists ? layer : null}
+          onChoose={choose}
+          onExtent={(extent) => (stripExtent.current = extent)}
+        />
+      </div>
+      <Panel>
+        {exists && (
+          <AttemptsPanel
+            layer={layer}
+            thicknessUm={known.spacing_um[2]}
+            detail={answer.value}
+            trouble={answer.trouble}
+            chosen={chosen}
+            onChoose={chooseAttempt}
+          />
+        )}
+      </Panel>
+    </>
+  );
+}
+
+/** The attempt that a link names; else the one that became the layer, or the last. */
+function chosenAttempt(
+  detail: LayerDetail | null,
+  number: number | null,
+  rejectedFirst: boolean,
+): Attempt | null {
+  const attempts = [...(detail?.attempts ?? [])].reverse();
+  const accepted = attempts.find(({ verdict }) => verdictWords(verdict).accepted);
+  const rejected = attempts.find(({ verdict }) => verdict === "rejected");
+  const usual = (rejectedFirst && rejected) || accepted || attempts[0];
+  return attempts.find(({ attempt }) => attempt === number) ?? usual ?? null;
+}
+
+function useKeys(act: (key: LayerKey) => void): void {
+  const latest = useRef(act);
+  latest.current = act;
+  useEffect(() => {
+    const press = (event: KeyboardEvent) => {
+      const key = layerKey(event);
+      if (!key || event.defaultPrevented || document.querySelector("dialog[open]")) return;
+      if (keepsKey(event.target instanceof Element ? event.target : null, key)) return;
+      event.preventDefault();
+      latest.current(key);
+    };
+    window.addEventListener("keydown", press);
+    return () => window.removeEventListener("keydown", press);
+  }, []);
+}
+
+/** Beside the picture: this layer, or the list of all rejected frames. */
+function Panel({ children }: { children: ComponentChildren }) {
+  const list = useSignal(false);
+  const choice = (label: string, isList: boolean) => (
+    <button
+      type="button"
+      class="segment-button"
+      aria-pressed={list.value === isList}
+      onClick={() => (list.value = isList)}
+    >
+      {label}
+    </button>
+  );
+  return (
+    <aside class="layer-panel" aria-label="About the layer">
+      {judged.value && (
+        <div class="segments" role="group" aria-label="Shown here">
+          {choice("This layer", false)}
+          {choice("Rejected frames", true)}
+        </div>
+      )}
+      {judged.value && list.value ? <RejectedList /> : children}
+    </aside>
   );
 }

@@ -1,0 +1,91 @@
+import { service } from "../api/live";
+import { Button } from "../ui/Button";
+import { CopyButton } from "./CopyButton";
+import type { ExplorerState } from "./explorer_state";
+import { leastSpacing } from "./geometry/cuboid";
+import { neuroglancerLink } from "./neuroglancer";
+import { fetchOutline } from "./section_fetch";
+import type { SectionTools } from "./section_tools";
+import { zoomAbout } from "./section_zoom";
+import { linkOf } from "./use_link";
+import { viewQuery } from "./view_hash";
+
+interface Props {
+  state: ExplorerState;
+  tools: SectionTools;
+  onExport: () => void;
+}
+
+/** What can be done with the section that is shown. */
+export function SectionToolbar({ state, tools, onExport }: Props) {
+  const measuring = tools.tool.value === "measure";
+  return (
+    <div class="section-toolbar" role="toolbar" aria-label="Section">
+      <div class="tool-group">
+        <Button
+          aria-pressed={!state.closeup.value}
+          onClick={() => (state.closeup.value = null)}
+          title="Show all of it"
+        >
+          All
+        </Button>
+        <Button onClick={() => zoomAbout(state, 1 / 1.5)} aria-label="Smaller">
+          −
+        </Button>
+        <Button onClick={() => zoomAbout(state, 1.5)} aria-label="Larger">
+          +
+        </Button>
+        <Button onClick={() => toFullResolution(state)} title="One voxel, one pixel">
+          1:1
+        </Button>
+        <Button aria-pressed={measuring} onClick={() => tools.take(measuring ? "look" : "measure")}>
+          Measure
+        </Button>
+      </div>
+      <div class="tool-group">
+        <CopyButton what="Link to this view" text={() => linkTo(state)}>
+          Copy link
+        </CopyButton>
+        <CopyButton what="The command that makes this picture" text={() => commandOf(state)}>
+          Copy as command
+        </CopyButton>
+        <NeuroglancerLink state={state} />
+        <Button kind="primary" onClick={onExport}>
+          Export…
+        </Button>
+      </div>
+    </div>
+  );
+}
+
+function toFullResolution(state: ExplorerState): void {
+  const window = state.window.value;
+  const cuboid = state.cuboid.value;
+  if (window && cuboid) zoomAbout(state, window.pixel / leastSpacing(cuboid));
+}
+
+const linkTo = (state: ExplorerState): string =>
+  `${location.origin}${location.pathname}${linkOf(viewQuery(state.view.value))}`;
+
+/** At full resolution, whatever is on the screen. */
+async function commandOf(state: ExplorerState): Promise<string> {
+  const query = state.query.value;
+  if (!query) throw new Error("There is no section yet.");
+  return (await fetchOutline({ ...query, format: "png" })).command;
+}
+
+function NeuroglancerLink({ state }: { state: ExplorerState }) {
+  const base = service.value?.neuroglancer;
+  const sample = state.sample.value;
+  if (!base || !sample) return null;
+  return (
+    <a
+      class="button button-link"
+      href={neuroglancerLink(base, location.origin, sample, state.placed.value)}
+      target="_blank"
+      rel="noopener noreferrer"
+    >
+      Open in neuroglancer
+    </a>
+  );
+}

@@ -1,0 +1,79 @@
+import { signal } from "@preact/signals";
+
+import { deleteAt, getBlob, getJson, postJson, sentenceOf } from "../api/client";
+import { onExport, onGap } from "../api/live";
+import type { ExportJob } from "../api/types";
+import type { Query } from "./section_query";
+
+export type ExportFormat = "png" | "tiff" | "jpeg";
+
+/** What POST /api/v1/exports takes. */
+export interface ExportOrder {
+  kind: "section" | "series";
+  format: ExportFormat;
+  parameters: Query;
+  series?: Query;
+  movie: boolean;
+  frames: boolean;
+  rate?: number; // of the film, frames in a second
+}
+
+const path = "/api/v1/exports";
+const ended = new Set(["done", "failed", "cancelled"]);
+export const hasEnded = (job: ExportJob): boolean => ended.has(job.state);
+
+/** The exports that the server knows of, the newest first, as they go on. */
+export class ExportJobs {
+  readonly jobs = signal<ExportJob[]>([]);
+  readonly failure = signal("");
+
+  /** Returns what ends it. */
+  watch(): () => void {
+    const stops = [onExport((job) => this.take(job)), onGap(() => void this.learn())];
+    return () => stops.forEach((stop) => stop());
+  }
+
+  async learn(): Promise<void> {
+    await this.attempt(async () => {
+      this.jobs.value = (await getJson<{ exports: ExportJob[] }>(path)).exports;
+    });
+  }
+
+  async order(order: ExportOrder): Promise<void> {
+    await this.attempt(async () => this.take(await postJson<ExportJob>(path, order)));
+  }
+
+  /** Stops it, or forgets it and its files when it has ended. */
+  async remove(job: ExportJob): Promise<void> {
+    await this.attempt(async () => {
+      await deleteAt(`${path}/${job.id}`);
+      if (hasEnded(job)) this.jobs.value = this.jobs.value.filter(({ id }) => id !== job.id);
+    });
+  }
+
+  private take(job: ExportJob): void {
+    const known = this.jobs.value.some(({ id }) => id === job.id);
+    this.jobs.value = known
+      ? this.jobs.value.map((old) => (old.id === job.id ? job : old))
+      : [job, ...this.jobs.value];
+  }
+
+  private async attempt(work: () => Promise<void>): Promise<void> {
+    this.failure.value = "";
+    try {
+      await work();
+    } catch (error) {
+      this.failure.value = sentenceOf(error);
+    }
+  }
+}
+
+/** Where reading needs a token, a plain link can't bring it: the file is fetched and handed on. */
+export async function downloadWithToken(url: string, name: string): Promise<void> {
+  const held = URL.createObjectURL(await getBlob(url));
+  const link = document.createElement("a");
+  link.href = held;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(held), 60_000);
+}

@@ -1,0 +1,37 @@
+import { ApiError, getJson, request } from "../api/client";
+import type { SectionRecord } from "./section_record";
+import { queryText } from "./section_query";
+import type { Query } from "./section_query";
+
+const recordHeader = "Biotomy-Section";
+
+/**
+ * A picture with its record. It is decoded as it is: no profile and no transparency changes its
+ * values.
+ */
+export async function fetchPicture(
+  address: string,
+  signal: AbortSignal,
+): Promise<{ image: ImageBitmap; record: SectionRecord }> {
+  const response = await request(address, { signal });
+  const record = JSON.parse(response.headers.get(recordHeader) ?? "null") as SectionRecord | null;
+  if (!record) throw new Error(`The answer has no header ${recordHeader}.`);
+  const image = await createImageBitmap(await response.blob(), {
+    premultiplyAlpha: "none",
+    colorSpaceConversion: "none",
+  });
+  return { image, record };
+}
+
+export const sectionAddress = (query: Query): string => `/api/v1/section?${queryText(query)}`;
+
+/** Where a section lies and how large its picture would be, without the picture. */
+export const fetchOutline = (query: Query, signal?: AbortSignal): Promise<SectionRecord> =>
+  getJson(`/api/v1/section/outline?${queryText(query)}`, signal);
+
+const busy = new Set([429, 503]);
+
+/** Seconds after which a busy server wants to be asked again; null for a refusal that stands. */
+export function retryAfter(error: unknown): number | null {
+  return error instanceof ApiError && busy.has(error.status) ? (error.retryAfter ?? 0.5) : null;
+}

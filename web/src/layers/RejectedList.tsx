@@ -1,0 +1,93 @@
+import { useEffect, useState } from "preact/hooks";
+
+import { getJson, isAbort, sentenceOf } from "../api/client";
+import { onAttempt } from "../api/live";
+import type { Attempt, Rejected } from "../api/types";
+import { Button } from "../ui/Button";
+import { fixed } from "../ui/numbers";
+import { layerHash } from "./layer_link";
+import { useThumbnails } from "./thumbnails";
+import { timeText } from "./time_text";
+import { slugWords } from "./verdict_words";
+
+const pageLength = 50;
+
+/** Every rejected frame, the newest first; each leads to its layer. */
+export function RejectedList() {
+  const [frames, setFrames] = useState<Attempt[]>([]);
+  const [count, setCount] = useState<number | null>(null);
+  const [trouble, setTrouble] = useState("");
+  const [news, setNews] = useState(0);
+  const [before, setBefore] = useState<number | null>(null);
+  const thumbnails = useThumbnails(1000);
+  void thumbnails.version.value;
+
+  useEffect(
+    () => onAttempt((attempt) => attempt.verdict === "rejected" && setNews((told) => told + 1)),
+    [],
+  );
+  useEffect(() => {
+    const ended = new AbortController();
+    const older = before === null ? "" : `&before=${before}`;
+    getJson<Rejected>(`/api/v1/rejected?limit=${pageLength}${older}`, ended.signal).then(
+      (answer) => {
+        setFrames((known) => merged(known, answer.rejected));
+        setCount(answer.count);
+        setTrouble("");
+      },
+      (error: unknown) => !isAbort(error) && setTrouble(sentenceOf(error)),
+    );
+    return () => ended.abort();
+  }, [before, news]);
+  useEffect(() => {
+    thumbnails.want(frames.flatMap((frame) => frame.image ?? []));
+  }, [frames]);
+
+  const last = frames[frames.length - 1];
+  return (
+    <section class="rejected" aria-label="Rejected frames">
+      {trouble && <p class="notice notice-bad">{trouble}</p>}
+      {count === 0 && <p class="muted">No frame has been rejected.</p>}
+      <ul class="rejected-frames">
+        {frames.map((frame) => (
+          <li key={frame.id}>
+            <a
+              class="rejected-frame"
+              href={layerHash({ layer: frame.layer, attempt: frame.attempt })}
+            >
+              <RejectedPicture
+                kept={Boolean(frame.image)}
+                url={frame.image ? thumbnails.url(frame.image) : undefined}
+              />
+              <span>
+                <strong>
+                  Layer {fixed(frame.layer)}, attempt {frame.attempt}: {slugWords(frame.slug)}
+                </strong>
+                <span class="rejected-reason">{frame.reason}</span>
+                <span class="muted">{timeText(frame.taken_at)}</span>
+              </span>
+            </a>
+          </li>
+        ))}
+      </ul>
+      {last && count !== null && frames.length < count && (
+        <Button onClick={() => setBefore(last.id)}>Show older ones</Button>
+      )}
+    </section>
+  );
+}
+
+function RejectedPicture({ kept, url }: { kept: boolean; url: string | undefined }) {
+  return (
+    <span class="rejected-picture">
+      {url && <img src={url} alt="" />}
+      {!kept && <span class="film-note">not kept</span>}
+    </span>
+  );
+}
+
+/** Each frame once, the newest first. */
+function merged(known: Attempt[], more: Attempt[]): Attempt[] {
+  const byId = new Map([...known, ...more].map((frame) => [frame.id, frame]));
+  return [...byId.values()].sort((a, b) => b.id - a.id);
+}
