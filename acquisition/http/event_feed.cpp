@@ -84,8 +84,7 @@ void EventFeed::tell_state(const std::string& key, const std::string& name, cons
   to_each([&](EventSubscription& listener) { listener.put(key, text); });
 }
 
-void EventFeed::tell(std::int64_t id, const std::string& name, const std::string& json) {
-  const EventText text = event_text(name, json, id);
+void EventFeed::tell(std::int64_t id, const EventText& text) {
   const std::scoped_lock lock(mutex_);
   last_id_ = id;
   to_each([&](EventSubscription& listener) { listener.put_each(text); });

@@ -63,8 +63,8 @@ class EventFeed {
   void tell_state(const std::string& key, const std::string& name, const std::string& json,
                   AtOnce at_once = AtOnce::yes);
 
-  /// Something that everybody is to hear; ids grow.
-  void tell(std::int64_t id, const std::string& name, const std::string& json);
+  /// Something that everybody is to hear, with its id; ids grow.
+  void tell(std::int64_t id, const EventText& text);
 
   /// Numbered events up to this one are counted as told.
   void begin_after(std::int64_t id);

@@ -30,6 +30,48 @@ AlarmKind alarm_kind_of(const std::exception& error, JobState state) {
   }
 }
 
+const char* to_string(AlarmKind kind) {
+  switch (kind) {
+    case AlarmKind::start_latch:
+      return "start_latch";
+    case AlarmKind::emergency_stop:
+      return "emergency_stop";
+    case AlarmKind::door:
+      return "door";
+    case AlarmKind::lines:
+      return "lines";
+    case AlarmKind::controller:
+      return "controller";
+    case AlarmKind::watchdog:
+      return "watchdog";
+    case AlarmKind::link:
+      return "link";
+    case AlarmKind::wheel:
+      return "wheel";
+    case AlarmKind::motion:
+      return "motion";
+    case AlarmKind::temperature:
+      return "temperature";
+    case AlarmKind::disk:
+      return "disk";
+    case AlarmKind::disagreement:
+      return "disagreement";
+    case AlarmKind::preflight:
+      return "preflight";
+    case AlarmKind::camera:
+      return "camera";
+    case AlarmKind::focus:
+      return "focus";
+    case AlarmKind::storage:
+      return "storage";
+    case AlarmKind::time_limit:
+      return "time_limit";
+    case AlarmKind::ending:
+      return "ending";
+  }
+  return "?";
+}
+
 const char* advice(AlarmKind kind) {
   switch (kind) {
     case AlarmKind::start_latch:

@@ -29,6 +29,9 @@ enum class AlarmKind {
   ending       ///< the daemon was stopped before the rig was at rest
 };
 
+/// Its name: "emergency_stop".
+const char* to_string(AlarmKind kind);
+
 /// Why the wheel must stop.
 struct StopCause {
   AlarmKind kind = AlarmKind::controller;

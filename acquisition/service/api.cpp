@@ -122,7 +122,7 @@ ApiResponse Api::events(const ApiRequest& request) const {
     std::vector<EventText> texts;
     if (const auto missed = missed_attempts(parts_.journal, *heard, subscription->begins_after())) {
       for (const AttemptNote& attempt : *missed) {
-        texts.push_back(event_text("attempt", attempt_json(attempt), attempt.id));
+        texts.push_back(attempt_event(attempt));
       }
     } else {
       texts.push_back(event_text("reload", "{}"));

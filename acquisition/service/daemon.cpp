@@ -35,6 +35,7 @@
 #include "acquisition/service/notifications/notifier.hpp"
 #include "acquisition/service/notifications/run_watch.hpp"
 #include "acquisition/service/service_manager.hpp"
+#include "acquisition/service/spare_room.hpp"
 #include "acquisition/service/status_json.hpp"
 #include "acquisition/service/stop_signals.hpp"
 #include "acquisition/service/watched_worker.hpp"
@@ -237,8 +238,13 @@ int run_daemon(const Configuration& configuration) {
     return status_json(*board.look(), {configuration.job.limits, attempts.last()});
   };
   const Page page(page_assets());
-  SampleApi sample(plan.sample, configuration.service.viewer);
   EventFeed feed;
+  ViewerSettings viewer = configuration.service.viewer;
+  viewer.bytes_to_spare = [&, folder = viewer.exports.empty() ? plan.sample.parent_path()
+                                                              : viewer.exports] {
+    return bytes_to_spare(folder, plan.sample, *board.look(), configuration.job.limits);
+  };
+  SampleApi sample(plan.sample, viewer);
   sample.on_export([&feed](const std::string& json) { tell_export(feed, json); });
   const EventSource events(feed, {status, [&] { return sample.sample_event(); }, &attempts});
   const Api api(

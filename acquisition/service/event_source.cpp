@@ -8,7 +8,7 @@
 #include <pthread.h>
 
 #include "acquisition/log.hpp"
-#include "acquisition/quality/metrics_json.hpp"
+#include "acquisition/viewer/attempt_document.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -63,22 +63,15 @@ void EventSource::tell_state(const std::function<std::string()>& sight, const ch
 void EventSource::tell_attempts() {
   if (sights_.attempts == nullptr) return;
   for (const AttemptNote& attempt : sights_.attempts->look()) {
-    feed_.tell(attempt.id, "attempt", attempt_json(attempt));
+    feed_.tell(attempt.id, attempt_event(attempt));
   }
 }
 
-std::string attempt_json(const AttemptNote& attempt) {
-  const nlohmann::json json = {{"id", attempt.id},
-                               {"layer", attempt.layer},
-                               {"attempt", attempt.attempt},
-                               {"taken_at", attempt.taken_at},
-                               {"verdict", attempt.verdict},
-                               {"slug", attempt.slug},
-                               {"reason", attempt.reason},
-                               {"metrics", metrics_json(attempt.metrics)},
-                               {"column_um", attempt.column.value},
-                               {"file", attempt.file}};
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+EventText attempt_event(const AttemptNote& attempt) {
+  using nlohmann::ordered_json;
+  const std::string json =
+      attempt_document(attempt).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return event_text("attempt", json, attempt.id);
 }
 
 void tell_export(EventFeed& feed, const std::string& json) {

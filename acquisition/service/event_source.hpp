@@ -45,8 +45,8 @@ class EventSource {
   std::jthread thread_;
 };
 
-/// The JSON of the event `attempt`.
-std::string attempt_json(const AttemptNote& attempt);
+/// The event `attempt`.
+EventText attempt_event(const AttemptNote& attempt);
 
 /// Tells a feed that an export has changed; `json` is the export's.
 void tell_export(EventFeed& feed, const std::string& json);

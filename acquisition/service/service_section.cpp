@@ -76,6 +76,10 @@ void read_bounds(const CheckedTable& table, ServiceConfiguration& service) {
                                      static_cast<int>(service.viewer.cache_bytes / kMegabyte), 16,
                                      100000, "of the volume, kept in memory to cut sections")) *
       kMegabyte;
+  const std::string exports = optional_text(
+      table, "exports",
+      "folder of the pictures and films that are made for download; empty: beside the sample");
+  if (!exports.empty()) service.viewer.exports = table.resolve(exports);
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ std::string status_json(const JobStatus& status, const StatusContext& context) {
     alarm = {{"cause", status.alarm->cause},
              {"since", status.alarm->since},
              {"state", to_string(status.alarm->state)},
+             {"kind", to_string(status.alarm->kind)},
              {"advice", advice(status.alarm->kind)}};
   }
   json left_range = nullptr;

@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <httplib.h>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/integration/child_process.hpp"
@@ -64,6 +67,30 @@ TEST_F(CommandLine, PrintsItsVersionAndHelp) {
   for (const char* command : {"import", "info", "section", "series", "rig"}) {
     EXPECT_NE(help.output.find(command), std::string::npos) << command;
   }
+}
+
+TEST_F(CommandLine, ShowsASampleUntilItIsInterrupted) {
+  const fs::path shown = sample();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    ChildProcess view({BIOTOMY_TOOL, "view", shown, "--no-browser"}, folder_.path());
+    const std::string address = view.wait_for("http://", std::chrono::seconds(60));
+    httplib::Client client("http://" + address.substr(0, address.find('/')));
+    EXPECT_EQ(client.Get("/")->status, 200);
+    EXPECT_EQ(nlohmann::json::parse(client.Get("/api/v1/service")->body).at("kind"), "view");
+    const auto section = client.Get("/api/v1/section?normal=0,0,1&through=0,0,0&format=png");
+    EXPECT_EQ(section->status, 200);
+    EXPECT_EQ(section->get_header_value("Content-Type"), "image/png");
+    EXPECT_EQ(client.Get("/", {{"Host", "evil.example"}})->status, 421);
+    view.send(signal);
+    EXPECT_EQ(view.wait(std::chrono::seconds(60)).exit_code, 0);
+  }
+}
+
+TEST_F(CommandLine, ShowsASampleToNoOtherComputerUnasked) {
+  const fs::path shown = sample();
+  expect_one_line(biotomy({"view", shown, "--listen", "0.0.0.0:0"}), kUsage, "--allow-remote");
+  expect_one_line(biotomy({"view", shown, "--listen", "nowhere"}), kUsage, "--listen");
+  expect_one_line(biotomy({"view", folder_.path() / "none"}), kFailure, "none");
 }
 
 TEST_F(CommandLine, RefusesAnUnknownCommand) {

@@ -26,7 +26,7 @@ TEST(EventFeed, TellsStatesAtOnceToWhoeverComes) {
   EventFeed feed;
   feed.tell_state("status", "status", "1");
   feed.tell_state("export 1", "export", "2", EventFeed::AtOnce::no);
-  feed.tell(1, "attempt", "3");
+  feed.tell(1, event_text("attempt", "3", 1));
   const auto listener = feed.subscribe();
   EXPECT_EQ(listener->begins_after(), 1);
   EXPECT_THAT(heard(*listener), ElementsAre("event: status\ndata: 1\n\n"));
@@ -38,7 +38,7 @@ TEST(EventFeed, TellsOnlyTheLatestOfAStateAndAllThatIsNumbered) {
   for (int i = 1; i <= 3; ++i) {
     feed.tell_state("status", "status", std::to_string(i));
     feed.tell_state("export " + std::to_string(i % 2), "export", std::to_string(i));
-    feed.tell(i, "attempt", std::to_string(i));
+    feed.tell(i, event_text("attempt", std::to_string(i), i));
     feed.tell_alive();
   }
   EXPECT_THAT(
@@ -53,7 +53,7 @@ TEST(EventFeed, TellsWhoFellFarBehindToLoadAnew) {
   EventFeed feed;
   const auto listener = feed.subscribe();
   feed.tell_state("status", "status", "{}");
-  for (int i = 1; i <= 5000; ++i) feed.tell(i, "attempt", "{}");
+  for (int i = 1; i <= 5000; ++i) feed.tell(i, event_text("attempt", "{}", i));
   const std::vector<std::string> texts = heard(*listener);
   EXPECT_LE(texts.size(), 1001U);
   EXPECT_EQ(texts.at(0), "event: status\ndata: {}\n\n");
@@ -65,7 +65,7 @@ TEST(EventFeed, TellsFirstWhatWasMissed) {
   EventFeed feed;
   feed.tell_state("status", "status", "{}");
   const auto listener = feed.subscribe();
-  feed.tell(3, "attempt", "{}");
+  feed.tell(3, event_text("attempt", "{}", 3));
   listener->catch_up({event_text("attempt", "{}", 1), event_text("attempt", "{}", 2)});
   EXPECT_THAT(
       heard(*listener),
@@ -78,15 +78,15 @@ TEST(EventFeed, WakesAListenerOnceUntilItHasListened) {
   const auto listener = feed.subscribe();
   int woken = 0;
   listener->on_event([&] { ++woken; });
-  feed.tell(1, "attempt", "{}");
-  feed.tell(2, "attempt", "{}");
+  feed.tell(1, event_text("attempt", "{}", 1));
+  feed.tell(2, event_text("attempt", "{}", 2));
   EXPECT_EQ(woken, 1);
   listener->take();
-  feed.tell(3, "attempt", "{}");
+  feed.tell(3, event_text("attempt", "{}", 3));
   EXPECT_EQ(woken, 2);
   listener->take();
   listener->on_event({});
-  feed.tell(4, "attempt", "{}");
+  feed.tell(4, event_text("attempt", "{}", 4));
   EXPECT_EQ(woken, 2);
 }
 

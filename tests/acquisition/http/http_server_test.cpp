@@ -355,7 +355,7 @@ TEST_F(HttpServerTest, TellsEventsToFiftyWhileTenDoNotListen) {
   const std::string large(20000, 'x');
   for (int i = 1; i <= 100; ++i) {
     feed.tell_state("status", "status", "\"" + large + std::to_string(i) + "\"");
-    feed.tell(i, "attempt", "{}");
+    feed.tell(i, event_text("attempt", "{}", i));
   }
   feed.tell_state("status", "status", R"("last")");
   // Whoever does not listen is dropped; the rest stay.
@@ -391,7 +391,7 @@ TEST_F(HttpServerTest, EndsWithStreamsOpenAndWorkUnderWay) {
   wait_until([&] { return begun.load(); });
   server.reset();
   EXPECT_EQ(feed.listeners(), 0U);
-  feed.tell(1, "attempt", "{}");
+  feed.tell(1, event_text("attempt", "{}", 1));
   EXPECT_EQ(worked_on.read_all(), "");
 }
 

@@ -29,6 +29,25 @@ TEST(Job, GrindsPhotographsAndStoresEveryLayerInOrder) {
   EXPECT_EQ(bench.board.look()->committed, 5);
 }
 
+TEST(Job, ShowsTheCommandsThatItWouldObey) {
+  using enum OperatorCommand;
+  JobBench bench;
+  bench.start_daemon();
+  bench.tick(3);
+  EXPECT_THAT(bench.board.look()->commands, ElementsAre(start, acknowledge));
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  EXPECT_THAT(bench.board.look()->commands, ElementsAre(pause, abort));
+  EXPECT_FALSE(bench.say(start).accepted);
+  EXPECT_TRUE(bench.say(pause).accepted);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  EXPECT_THAT(bench.board.look()->commands, ElementsAre(resume, abort));
+  EXPECT_TRUE(bench.say(abort).accepted);
+  ASSERT_TRUE(bench.reach(JobState::aborted));
+  EXPECT_THAT(bench.board.look()->commands,
+              ElementsAre(start, calibrate_flat, calibrate_dark, calibrate_white, calibrate_focus));
+}
+
 TEST(Job, FindsTheFocusOnceAndFollowsTheFaceAfterwards) {
   JobBench bench;
   bench.start_job();

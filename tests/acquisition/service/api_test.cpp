@@ -164,7 +164,7 @@ TEST_F(ApiTest, TellsFirstWhatAListenerMissed) {
   const ApiResponse response = get("/api/v1/events", "2");
   ASSERT_TRUE(response.events);
   EXPECT_EQ(response.content_type, "text/event-stream");
-  feed.tell(5, "attempt", "{}");
+  feed.tell(5, event_text("attempt", "{}", 5));
   const std::vector<EventText> heard = response.events->take();
   ASSERT_EQ(heard.size(), 3U);
   EXPECT_THAT(*heard[0], testing::StartsWith("id: 3\nevent: attempt\ndata: {"));

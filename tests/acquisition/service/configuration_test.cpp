@@ -139,6 +139,25 @@ TEST(Configuration, ListensToOtherComputersOnlyWhenThatIsMeant) {
   }
 }
 
+TEST(Configuration, NamesWhoMayAskFromABrowser) {
+  const auto service = [](const std::string& keys) {
+    return changed("[focus]", "[service]\n" + keys + "\n[focus]");
+  };
+  const auto guard = service("hosts = [\"rig.lab\"]")().service.http.guard;
+  EXPECT_THAT(guard.hosts, testing::ElementsAre("rig.lab"));
+  EXPECT_EQ(guard.neuroglancer_origin, "https://neuroglancer-demo.appspot.com");
+  EXPECT_EQ(service("neuroglancer = \"\"")().service.http.guard.neuroglancer_origin, "");
+  for (const char* host : {"rig.lab:8080", "", "http://rig.lab"}) {
+    EXPECT_THAT(service(std::string("hosts = [\"") + host + "\"]"), refuses("service.hosts"))
+        << host;
+  }
+  for (const char* origin : {"neuroglancer.example", "https://a/b", "ftp://a", "https://"}) {
+    EXPECT_THAT(service(std::string("neuroglancer = \"") + origin + "\""),
+                refuses("service.neuroglancer"))
+        << origin;
+  }
+}
+
 TEST(Configuration, TellsNobodyUnlessItIsToldWhom) {
   EXPECT_FALSE(parse_configuration(smallest_configuration(), "rig.toml").notify.is_on());
   EXPECT_TRUE(changed("[focus]", "[notify]\ncommand = [\"mail\"]\n[focus]")().notify.is_on());

@@ -1,0 +1,68 @@
+#include "acquisition/service/sample_service.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+
+struct SampleServiceTest : testing::Test {
+  TemporaryFolder folder;
+  Page page{std::span<const PageAsset>()};
+  SampleApi sample{folder.path() / "knee", {}};
+  EventFeed feed;
+  SampleService service{{.kind = ServiceDescription::Kind::view,
+                         .reading_needs_token = false,
+                         .commands_need_token = false,
+                         .sample = "knee",
+                         .neuroglancer = "https://neuroglancer.example"},
+                        page,
+                        sample,
+                        feed};
+
+  ApiResponse ask(const std::string& path, const std::string& method = "GET") const {
+    ApiRequest request;
+    request.method = method;
+    request.path = path;
+    return service.answer(request);
+  }
+};
+
+TEST_F(SampleServiceTest, SaysThatThereIsNoRig) {
+  const auto description = nlohmann::json::parse(ask("/api/v1/service").body);
+  EXPECT_EQ(description.at("kind"), "view");
+  EXPECT_EQ(description.at("reading"), "open");
+  EXPECT_FALSE(description.at("commands_need_token"));
+  EXPECT_EQ(description.at("neuroglancer"), "https://neuroglancer.example");
+  EXPECT_EQ(ask("/api/v1/status").status, 404);
+  EXPECT_EQ(ask("/api/v1/control/start", "POST").status, 404);
+  EXPECT_EQ(ask("/metrics").status, 404);
+}
+
+TEST_F(SampleServiceTest, ServesPageEventsAndHealth) {
+  EXPECT_EQ(ask("/").status, 200);
+  EXPECT_EQ(ask("/healthz").status, 200);
+  EXPECT_EQ(ask("/healthz", "POST").status, 405);
+  feed.tell_state("sample", "sample", "{}");
+  const ApiResponse response = ask("/api/v1/events");
+  ASSERT_TRUE(response.events);
+  EXPECT_EQ(response.events->take().size(), 1U);
+}
+
+TEST_F(SampleServiceTest, HandsOnWhatIsTheSamples) {
+  ApiRequest request;
+  request.method = "GET";
+  request.path = "/api/v1/sample";
+  EXPECT_EQ(ask(request.path).status, sample.answer(request).status);
+  request.path = "/api/v1/section";
+  EXPECT_EQ(service.lane(request), Lane::pictures);
+  request.path = "/api/v1/service";
+  EXPECT_EQ(service.lane(request), Lane::quick);
+}
+
+}  // namespace
+}  // namespace biotomy::tests
