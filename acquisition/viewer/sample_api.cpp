@@ -174,7 +174,7 @@ struct SampleApi::State {
       return series.frames(request);
     }
     if (first == "series" && rest == std::vector<std::string>{"frame"}) {
-      return picture_of(series.frame_task(request.query), request, arena);
+      return picture_of(series.frame_task(request), request, arena);
     }
     if (first == "sample" && rest.empty()) return sample();
     if (first == "history" && rest.empty()) return records.history(request);
