@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include <sys/stat.h>
+
 #include "acquisition/viewer/file_version.hpp"
 #include "reconstruct/errors.hpp"
 
@@ -10,6 +12,12 @@ namespace biotomy::acquisition {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of a folder, whatever is put into it meanwhile.
+std::string folder_number(const fs::path& folder) {
+  struct stat status {};
+  return ::stat(folder.c_str(), &status) == 0 ? std::to_string(status.st_ino) : "";
+}
 
 std::uint64_t milliseconds_now() {
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -21,6 +29,9 @@ std::uint64_t milliseconds_now() {
 
 SampleView::SampleView(const fs::path& folder, std::size_t cache_bytes)
     : sample(folder), bricks(sample.volume, cache_bytes, {}, &sample.tail) {}
+
+SampleView::SampleView(const fs::path& folder, std::size_t cache_bytes, const SampleView& before)
+    : sample(folder), bricks(sample.volume, cache_bytes, {}, &sample.tail, before.bricks) {}
 
 LiveSample::LiveSample(fs::path folder, std::size_t cache_bytes)
     : folder_(fs::absolute(folder).lexically_normal()),
@@ -34,9 +45,14 @@ void LiveSample::refresh() {
   if (view_ && files == files_ && view_->sample.folder.layers_on_disk(known + 1) == 0) return;
   const bool other_files = files != files_;
   files_ = files;
+  const std::string volume = folder_number(folder_ / "volume.ome.zarr");
+  const std::shared_ptr<const SampleView> before =
+      volume == volume_ ? std::exchange(view_, nullptr) : nullptr;
   view_ = nullptr;
+  volume_ = volume;
   if (other_files) ++generation_;
-  auto opened = std::make_shared<SampleView>(folder_, cache_bytes_);
+  auto opened = before ? std::make_shared<SampleView>(folder_, cache_bytes_, *before)
+                       : std::make_shared<SampleView>(folder_, cache_bytes_);
   if (!other_files && opened->sample.tail.layers_present() != known) ++generation_;
   opened->generation = generation_;
   view_ = std::move(opened);

@@ -19,6 +19,10 @@ struct SampleView {
   std::uint64_t generation = 0;
 
   SampleView(const std::filesystem::path& folder, std::size_t cache_bytes);
+
+  /// Takes over what `before`, a view of the same volume, has read of it.
+  SampleView(const std::filesystem::path& folder, std::size_t cache_bytes,
+             const SampleView& before);
 };
 
 /// A sample that is kept open for pictures while it grows: opened anew when its description, its
@@ -42,7 +46,8 @@ class LiveSample {
   std::filesystem::path folder_;
   std::size_t cache_bytes_;
   std::mutex mutex_;
-  std::string files_;  // what the view was opened by
+  std::string files_;   // what the view was opened by
+  std::string volume_;  // which folder the volume was: one that is made anew is another
   std::uint64_t generation_;
   std::shared_ptr<const SampleView> view_;  // none where it could not be opened
 };

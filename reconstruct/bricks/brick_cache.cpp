@@ -119,4 +119,14 @@ std::vector<ChunkIndex> BrickCache::missing(int level, std::span<const ChunkInde
   return result;
 }
 
+void BrickCache::adopt(const BrickCache& other,
+                       const std::function<bool(const BrickKey&)>& wanted) {
+  const std::scoped_lock lock(state_->mutex, other.state_->mutex);
+  other.state_->bricks.visit([&](const BrickKey& key, const TexelBrick& brick, std::size_t weight) {
+    if (wanted(key)) {
+      state_->bricks.put(key, brick, weight);
+    }
+  });
+}
+
 }  // namespace biotomy::reconstruct

@@ -34,6 +34,9 @@ class BrickCache {
   /// Those of `indices` that a get would have to fetch.
   std::vector<ChunkIndex> missing(int level, std::span<const ChunkIndex> indices) const;
 
+  /// Takes those that `wanted` says yes to over from another cache, which keeps them too.
+  void adopt(const BrickCache& other, const std::function<bool(const BrickKey&)>& wanted);
+
  private:
   struct State;
   std::unique_ptr<State> state_;

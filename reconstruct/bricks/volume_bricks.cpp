@@ -36,14 +36,42 @@ struct Part {
 
 VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
                            const DamagePolicy& policy, const LayerTail* tail)
+    : VolumeBricks(volume, capacity_bytes, policy, tail, static_cast<const BlockPool*>(nullptr)) {}
+
+VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
+                           const DamagePolicy& policy, const LayerTail* tail,
+                           const VolumeBricks& before)
+    : VolumeBricks(volume, capacity_bytes, policy, tail, &before.pool_) {
+  const bool same = volume.cuboid().size == before.volume_.cuboid().size &&
+                    volume.bits() == before.volume_.bits() &&
+                    volume.layout().chunk == before.volume_.layout().chunk &&
+                    volume.levels() == before.volume_.levels() &&
+                    volume.layers_present() >= before.volume_.layers_present();
+  if (same) {
+    cache_.adopt(before.cache_,
+                 [&](const BrickKey& key) { return before.is_complete(key.first, key.second); });
+  }
+}
+
+// Bricks that go from one to the next come from one pool: two would each keep slabs for all.
+VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
+                           const DamagePolicy& policy, const LayerTail* tail, const BlockPool* pool)
     : volume_(volume),
       policy_(policy),
       tail_(tail),
       blocks_(volume.layout().chunk, volume.bits()),
-      pool_(blocks_.brick_bytes(), TexelBlocks::slack()),
+      pool_(pool != nullptr && pool->block_bytes() == blocks_.brick_bytes()
+                ? *pool
+                : BlockPool(blocks_.brick_bytes(), TexelBlocks::slack())),
       cache_(
           capacity_bytes, blocks_.brick_bytes(),
           [this](int level, std::span<const ChunkIndex> wanted) { return fetch(level, wanted); }) {}
+
+/// Whether all its layers were in the volume when it was opened: such a chunk never changes.
+bool VolumeBricks::is_complete(int level, ChunkIndex index) const {
+  return (std::int64_t{index.z} + 1) * volume_.layout().chunk[0] * volume_.level(level).factor.z <=
+         volume_.layers_present();
+}
 
 std::vector<TexelBrick> VolumeBricks::bricks(int level, std::span<const ChunkIndex> wanted) {
   return cache_.get(level, wanted);

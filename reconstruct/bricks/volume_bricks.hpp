@@ -39,6 +39,11 @@ class VolumeBricks final : public BrickSource {
   VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy = {},
                const LayerTail* tail = nullptr);
 
+  /// Likewise, of a volume that was opened before and has grown since: what `before` has read of
+  /// layers that were complete then is not read again.
+  VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy,
+               const LayerTail* tail, const VolumeBricks& before);
+
   const Cuboid& cuboid() const override { return volume_.cuboid(); }
   int bits() const override { return volume_.bits(); }
   std::array<int, 3> brick_shape() const override { return volume_.layout().chunk; }
@@ -51,7 +56,10 @@ class VolumeBricks final : public BrickSource {
   Damage damage() const;
 
  private:
+  VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy,
+               const LayerTail* tail, const BlockPool* pool);
   bool in_tail(int level, ChunkIndex index) const;
+  bool is_complete(int level, ChunkIndex index) const;
   std::vector<TexelBrick> fetch(int level, std::span<const ChunkIndex> wanted);
   std::shared_ptr<std::byte> brick_of(std::span<const std::byte> voxels);
   std::shared_ptr<std::byte> damaged_brick();

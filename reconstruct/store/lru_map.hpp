@@ -38,6 +38,14 @@ class LruMap {
     }
   }
 
+  /// Calls visit(key, value, weight) for all, the longest unused first.
+  template <typename Visit>
+  void visit(Visit visit) const {
+    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+      visit(entry->key, entry->value, entry->weight);
+    }
+  }
+
  private:
   struct Entry {
     Key key;

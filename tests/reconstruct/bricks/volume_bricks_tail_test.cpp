@@ -71,6 +71,41 @@ TEST(BricksOfASample, GivesTheLayersOfAStoredSampleBackAsSections) {
   EXPECT_EQ(volume.statistics().chunks_read, 24);
 }
 
+TEST(BricksOfASample, AreNotReadAgainWhereTheVolumeHasGrownBehindThem) {
+  const TemporaryFolder folder;
+  SampleDescription description;
+  description.name = "growing";
+  description.cuboid = {{kLayerSize.width, kLayerSize.height, 24}, {10.0, 10.0, 25.0}};
+  description.created = "2026-01-01T00:00:00Z";
+  const SampleFolder sample = SampleFolder::create(folder.path() / "growing", description);
+  const auto add_layers_up_to = [&](int first, int last) {
+    for (int layer = first; layer <= last; ++layer) {
+      write_layer_image(sample.layer_path(layer), layer_image(layer),
+                        {layer, description.cuboid.spacing}, {});
+    }
+  };
+  const Plane upright = Plane::from_normal({0, 1, 0}, {0, 100, 0});
+  const SectionRequest request{upright, section_basis(BasisKind::layer, upright), {}};
+  add_layers_up_to(1, 12);
+  VolumeWriter(sample, small_layout()).append(12, false);
+  const Volume volume = Volume::open(sample.volume_path());
+  const LayerTail tail(sample, volume);
+  VolumeBricks bricks(volume, 10'000'000, {}, &tail);
+  cut_section(bricks, request);
+  ASSERT_EQ(volume.layers_present(), 8);
+
+  add_layers_up_to(13, 20);
+  VolumeWriter(sample, small_layout()).append(20, false);
+  const Volume grown = Volume::open(sample.volume_path());
+  ASSERT_EQ(grown.layers_present(), 16);
+  const LayerTail grown_tail(sample, grown);
+  VolumeBricks after(grown, 10'000'000, {}, &grown_tail, bricks);
+  VolumeBricks anew(grown, 10'000'000, {}, &grown_tail);
+  const cv::Mat image = cut_section(after, request).image;
+  EXPECT_EQ(grown.statistics().chunks_read, 4) << "those of layers 9 to 16";
+  EXPECT_EQ(cv::norm(image, cut_section(anew, request).image, cv::NORM_INF), 0.0);
+}
+
 /// A sample whose volume ends before its layers do, beside the same one with a whole volume.
 class VolumeWithATail : public testing::TestWithParam<int> {
  protected:

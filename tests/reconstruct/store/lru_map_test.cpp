@@ -18,6 +18,18 @@ TEST(LruMap, DropsTheLongestUnusedWhenTheWeightIsTooMuch) {
   EXPECT_EQ(*map.find(3), "three");
 }
 
+TEST(LruMap, IsVisitedFromTheLongestUnusedOn) {
+  LruMap<int, std::string> map(10);
+  map.put(1, "one", 4);
+  map.put(2, "two", 3);
+  map.find(1);
+  std::string seen;
+  map.visit([&](int key, const std::string& value, std::size_t weight) {
+    seen += std::to_string(key) + value + std::to_string(weight) + ' ';
+  });
+  EXPECT_EQ(seen, "2two3 1one4 ");
+}
+
 TEST(LruMap, KeepsTheLastEvenWhenItIsHeavierThanAll) {
   LruMap<int, int> map(10);
   map.put(1, 1, 5);

@@ -1,0 +1,108 @@
+// The plane is moved in every way there is; what is drawn beside it is what `biotomy section` cuts.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Tab, launch } from "./browser.mjs";
+import { cuboid, dragHandle, drawnByTool, handles, section, sharpSection } from "./explorer.mjs";
+import { assertSame, colours, pixelsOf } from "./pictures.mjs";
+import { Rig } from "./rig.mjs";
+import { until } from "./until.mjs";
+
+let rig;
+let browser;
+let tab;
+
+before(async () => {
+  rig = await Rig.start();
+  await rig.runJob();
+  browser = await launch();
+  tab = await Tab.open(browser);
+});
+after(async () => {
+  await browser?.close();
+  await rig?.stop();
+});
+
+const commandOf = (page) => section(page).getAttribute("data-command");
+
+/** The section on the page and the one that its command makes are one picture. */
+async function assertDrawnAsByTool(before = "") {
+  const canvas = await sharpSection(tab.page, before);
+  const command = await canvas.getAttribute("data-command");
+  const shown = await pixelsOf(canvas);
+  assert.equal(await canvas.getAttribute("data-command"), command, "it changed while it was read");
+  assertSame(shown, drawnByTool(command), command);
+  assert.ok(colours(shown) > 100, `${command} shows nothing`);
+  return command;
+}
+
+test("the first section is the tool's, pixel by pixel", async () => {
+  await tab.visit(rig.url, "#/explorer");
+  await assertDrawnAsByTool();
+});
+
+test("a point of the plane is dragged; there is a preview, then the sharpened section is the tool's", async () => {
+  const { page } = tab;
+  const before = await commandOf(page);
+  const points = await handles(page);
+  assert.equal(points.length, 3);
+  await page.evaluate(() => {
+    window.states = [];
+    const canvas = document.querySelector('canvas[data-role="section"]');
+    new MutationObserver(() => window.states.push(canvas.dataset.state)).observe(canvas, {
+      attributes: true,
+      attributeFilter: ["data-state"],
+    });
+  });
+  await dragHandle(page, 0, 25, 40);
+  await assertDrawnAsByTool(before);
+  assert.ok((await page.evaluate(() => window.states)).includes("preview"), "there was no preview");
+  assert.notDeepEqual(await handles(page), points);
+});
+
+for (const shortcut of ["Along layers", "x-z", "y-z", "Diagonal"]) {
+  test(`the shortcut ${shortcut} gives the tool's section`, async () => {
+    const before = await commandOf(tab.page);
+    await tab.page
+      .getByRole("button", { name: new RegExp(`^${shortcut}`, "i") })
+      .first()
+      .click();
+    await assertDrawnAsByTool(before);
+  });
+}
+
+test("the plane is turned by the keyboard in the cuboid, and the address follows", async () => {
+  const { page } = tab;
+  const before = await commandOf(page);
+  const address = page.url();
+  await cuboid(page).focus();
+  await page.keyboard.press("PageDown");
+  await assertDrawnAsByTool(before);
+  await until("another address", () => page.url() !== address);
+});
+
+test("a link opens the same view in another browser", async () => {
+  const command = await commandOf(tab.page);
+  const other = await Tab.open(browser);
+  try {
+    await other.page.goto(tab.page.url());
+    const canvas = await sharpSection(other.page);
+    assert.equal(await canvas.getAttribute("data-command"), command);
+    other.assertNoFaults();
+  } finally {
+    await other.close();
+  }
+});
+
+test("the cursor's place is told in micrometres of the sample", async () => {
+  const { page } = tab;
+  const box = await section(page).boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await until("a place", async () =>
+    /µm/.test(await page.locator('[data-role="cursor"]').first().textContent()),
+  );
+});
+
+test("nothing failed and nothing was complained of", () => {
+  tab.assertNoFaults();
+  tab.assertKeptTo(rig.url, rig.token);
+});
