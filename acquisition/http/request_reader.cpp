@@ -21,6 +21,7 @@ struct Refusal {
 };
 
 constexpr Refusal kUnreadable{400, "the request cannot be understood"};
+constexpr Refusal kNoLength{411, "the body needs a Content-Length"};
 constexpr Refusal kHeaderTooLong{431, "the header is too long"};
 constexpr Refusal kTargetTooLong{414, "the address is too long"};
 constexpr Refusal kBodyTooLarge{413, "the body is too large"};
@@ -37,7 +38,7 @@ struct RequestReader::State {
 
   void begin() {
     parser.emplace();
-    parser->eager(true);
+    parser->eager(false);  // the header is looked at before the body is read
     parser->header_limit(kLongestHeader);
     parser->body_limit(kLargestBody);
     expectation_taken = false;
@@ -71,8 +72,17 @@ struct RequestReader::State {
       return false;
     }
     target = parse_target({asked.data(), asked.size()});
-    if (!target) refusal = kUnreadable;
-    return target.has_value();
+    if (!target) {
+      refusal = kUnreadable;
+      return false;
+    }
+    // None of our clients sends a body in chunks, and Beast's parser of chunks trips over some.
+    if (parser->chunked()) {
+      refusal = kNoLength;
+      return false;
+    }
+    parser->eager(true);
+    return true;
   }
 };
 

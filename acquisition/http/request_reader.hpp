@@ -22,7 +22,8 @@ struct ReceivedRequest {
 };
 
 /// Reads the requests of one connection from its bytes, one after the other. Headers over 16 KiB,
-/// targets over 8 KiB and bodies over 64 KiB are refused before they are read.
+/// targets over 8 KiB and bodies over 64 KiB are refused before they are read, and so are bodies
+/// that do not say how long they are.
 class RequestReader {
  public:
   RequestReader();

@@ -28,6 +28,7 @@ const char* reason_phrase(int status) {
       Phrase{405, "Method Not Allowed"},
       Phrase{408, "Request Timeout"},
       Phrase{409, "Conflict"},
+      Phrase{411, "Length Required"},
       Phrase{413, "Content Too Large"},
       Phrase{414, "URI Too Long"},
       Phrase{416, "Range Not Satisfiable"},

@@ -96,7 +96,7 @@ ServiceConfiguration read_service(const CheckedTable& table) {
       table.get(TextKey{.name = "read",
                         .fallback = "open",
                         .choices = {"open", "token"},
-                        .description = "who may look at page, status, layers and metrics: "
+                        .description = "who may look at status, layers, sections and metrics: "
                                        "everybody who reaches the address, or who has a token"}) ==
       "token";
   const bool allow_remote =

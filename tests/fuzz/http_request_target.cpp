@@ -53,7 +53,7 @@ bool fuzz_http_request(FuzzInput input) {
     while (true) {
       const RequestReader::Outcome outcome = reader.take(waiting);
       if (outcome == RequestReader::Outcome::refused) {
-        static const std::set<int> kRefusals = {400, 413, 414, 431};
+        static const std::set<int> kRefusals = {400, 411, 413, 414, 431};
         require(kRefusals.contains(reader.refusal().status), "refused with another status");
         return taken;
       }

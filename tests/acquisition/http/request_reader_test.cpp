@@ -58,12 +58,10 @@ TEST(RequestReader, LeavesTheNextRequestInItsPlace) {
   EXPECT_FALSE(second.keep_alive);
 }
 
-TEST(RequestReader, ReadsABodyInPieces) {
-  RequestReader reader;
-  std::string bytes =
-      "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n2\r\nab\r\n1\r\nc\r\n0\r\n\r\n";
-  ASSERT_EQ(reader.take(bytes), Outcome::complete);
-  EXPECT_EQ(reader.request().request.body, "abc");
+TEST(RequestReader, RefusesABodyThatDoesNotSayHowLongItIs) {
+  EXPECT_EQ(refusal_of("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n2\r\nab\r\n0\r\n\r\n"),
+            411);
+  EXPECT_EQ(refusal_of("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"), 411);
 }
 
 TEST(RequestReader, RefusesALongHeaderAsOneHoweverItComes) {
@@ -84,9 +82,6 @@ TEST(RequestReader, RefusesWhatIsTooLong) {
   EXPECT_EQ(refusal_of("GET / HTTP/1.1\r\nX: " + std::string(20000, 'a') + "\r\n\r\n"), 431);
   EXPECT_EQ(refusal_of("GET / HTTP/1.1\r\nX: " + std::string(20000, 'a')), 431);
   EXPECT_EQ(refusal_of("POST / HTTP/1.1\r\nContent-Length: 65537\r\n\r\n"), 413);
-  EXPECT_EQ(refusal_of("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n10001\r\n" +
-                       std::string(65537, 'a')),
-            413);
   EXPECT_EQ(refusal_of("POST / HTTP/1.1\r\nContent-Length: 65536\r\n\r\n"), 0);
   EXPECT_EQ(refusal_of("GET /" + std::string(8000, 'a') + " HTTP/1.1\r\n"), 0);
 }
