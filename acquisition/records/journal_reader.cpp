@@ -1,5 +1,6 @@
 #include "acquisition/records/journal_reader.hpp"
 
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,75 +51,27 @@ std::vector<AttemptNote> notes_of(SQLite::Statement& select) {
 
 constexpr const char* kGaveNoLayer = "verdict IN ('rejected', 'not_stored')";
 
-/// Reads one attempt's metrics into the last entries of the columns that want them. What nobody
-/// wants is passed over without a copy: a journal of 10000 layers holds some 20 MB of it.
-class WantedMetrics : public nlohmann::json_sax<nlohmann::json> {
- public:
-  explicit WantedMetrics(std::vector<AttemptHistory::Column>& columns) : columns_(columns) {}
+/// The object of a metric in an attempt's list of them; nothing where it has none of that name. A
+/// journal of 10000 layers holds some 20 MB of metrics, of which a chart wants a few: the others
+/// are passed over unread. Metrics are objects of plain values, written without blanks by
+/// LayerJournal.
+std::optional<nlohmann::json> metric_in(std::string_view list, const std::string& name) {
+  const std::string wanted = "\"name\":" + nlohmann::json(name).dump();
+  const auto* const found =
+      static_cast<const char*>(::memmem(list.data(), list.size(), wanted.data(), wanted.size()));
+  if (found == nullptr) return std::nullopt;
+  const auto place = static_cast<std::size_t>(found - list.data());
+  const std::size_t begin = list.rfind('{', place);
+  const std::size_t end = list.find('}', place);
+  if (begin == std::string_view::npos || end == std::string_view::npos) return std::nullopt;
+  return nlohmann::json::parse(list.substr(begin, end + 1 - begin));
+}
 
-  /// False when it is not JSON.
-  bool read(std::string_view text) { return nlohmann::json::sax_parse(text, this); }
-
-  bool null() override { return true; }
-  bool boolean(bool /*value*/) override { return true; }
-  bool number_integer(number_integer_t value) override {
-    return number(static_cast<double>(value));
-  }
-  bool number_unsigned(number_unsigned_t value) override {
-    return number(static_cast<double>(value));
-  }
-  bool number_float(number_float_t value, const string_t& /*text*/) override {
-    return number(value);
-  }
-  bool string(string_t& value) override {
-    if (key_ == Key::name) name_.swap(value);
-    return true;
-  }
-  bool binary(binary_t& /*value*/) override { return true; }
-  bool start_object(std::size_t /*elements*/) override {
-    name_.clear();
-    value_.reset();
-    limit_.reset();
-    return true;
-  }
-  bool key(string_t& name) override {
-    key_ = name == "name"    ? Key::name
-           : name == "value" ? Key::value
-           : name == "limit" ? Key::limit
-                             : Key::other;
-    return true;
-  }
-  bool end_object() override {
-    for (AttemptHistory::Column& column : columns_) {
-      if (column.name == name_) {
-        column.value.back() = value_;
-        column.limit.back() = limit_;
-      }
-    }
-    return true;
-  }
-  bool start_array(std::size_t /*elements*/) override { return true; }
-  bool end_array() override { return true; }
-  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
-                   const nlohmann::detail::exception& /*error*/) override {
-    return false;
-  }
-
- private:
-  enum class Key { name, value, limit, other };
-
-  bool number(double value) {
-    if (key_ == Key::value) value_ = value;
-    if (key_ == Key::limit) limit_ = value;
-    return true;
-  }
-
-  std::vector<AttemptHistory::Column>& columns_;
-  Key key_ = Key::other;
-  std::string name_;
-  std::optional<double> value_;
-  std::optional<double> limit_;
-};
+std::optional<double> number_of(const nlohmann::json& metric, const char* key) {
+  const auto found = metric.find(key);
+  if (found == metric.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
 
 /// A daemon that was killed left what is not in the journal's file yet.
 bool has_unfinished_writes(const std::filesystem::path& journal) {
@@ -275,16 +228,12 @@ AttemptHistory JournalReader::history(const std::vector<std::string>& metrics,
       history.verdict.push_back(select.getColumn(3).getString());
       history.column_um.push_back(select.getColumn(4).getDouble());
       history.taken_at.push_back(select.getColumn(5).getString());
-      for (AttemptHistory::Column& column : history.metrics) {
-        column.value.emplace_back();
-        column.limit.emplace_back();
-      }
       const SQLite::Column text = select.getColumn(6);
-      if (!WantedMetrics(history.metrics)
-               .read({text.getText(), static_cast<std::size_t>(text.getBytes())})) {
-        throw JournalError("the journal " + state_->path.string() +
-                           " holds metrics that are not JSON: of attempt " +
-                           std::to_string(history.id.back()));
+      const std::string_view list(text.getText(), static_cast<std::size_t>(text.getBytes()));
+      for (AttemptHistory::Column& column : history.metrics) {
+        const auto metric = metric_in(list, column.name);
+        column.value.push_back(metric ? number_of(*metric, "value") : std::nullopt);
+        column.limit.push_back(metric ? number_of(*metric, "limit") : std::nullopt);
       }
     }
     return history;

@@ -68,13 +68,6 @@ void require_method(const ApiRequest& request, std::initializer_list<std::string
   throw WrongMethod(request, list);
 }
 
-/// Beside the sample, never in it: a sample can be copied without what was made of it.
-std::filesystem::path exports_folder(const ViewerSettings& settings,
-                                     const std::filesystem::path& sample) {
-  if (!settings.exports.empty()) return settings.exports;
-  return sample.parent_path() / (sample.filename().string() + "-exports");
-}
-
 [[noreturn]] void refuse_path(const std::string& path) {
   throw Refusal(404, "there is no " + path);
 }
@@ -108,9 +101,10 @@ struct SampleApi::State {
         records(live, settings.journal),
         images(live, records, arena, settings.decoded_bytes),
         volume(live.folder() / "volume.ome.zarr"),
-        exports(live, arena,
-                {exports_folder(settings, live.folder()), settings.bytes_to_spare,
-                 settings.cache_bytes}) {}
+        exports(
+            live, arena,
+            {settings.exports.empty() ? default_exports_folder(live.folder()) : settings.exports,
+             settings.bytes_to_spare, settings.cache_bytes}) {}
 
   ApiResponse sample() const {
     const auto view = live.look();

@@ -21,4 +21,10 @@ struct ViewerSettings {
   std::function<std::uint64_t()> bytes_to_spare = {};
 };
 
+/// SAMPLE-exports: beside the sample, never in it, so that a sample can be copied without what was
+/// made of it.
+inline std::filesystem::path default_exports_folder(const std::filesystem::path& sample) {
+  return sample.parent_path() / (sample.filename().string() + "-exports");
+}
+
 }  // namespace biotomy::acquisition

@@ -96,11 +96,14 @@ const stream = new EventStream("/api/v1/events", {
   },
 });
 
+const isSame = (one: Service, other: Service): boolean =>
+  one.version === other.version && one.kind === other.kind && one.sample === other.sample;
+
 async function learnService(): Promise<void> {
   try {
     const learnt = await getJson<Service>(servicePath);
-    if (service.value && service.value.version !== learnt.version) {
-      location.reload(); // the page belongs to the server
+    if (service.value && !isSame(service.value, learnt)) {
+      location.reload(); // the page belongs to the server, and what it shows to the sample
       return;
     }
     setNeeds({ reading: learnt.reading === "token", commands: learnt.commands_need_token });

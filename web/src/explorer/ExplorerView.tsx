@@ -1,4 +1,4 @@
-import { useSignal } from "@preact/signals";
+import { untracked, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 
 import "./explorer.css";
@@ -31,6 +31,11 @@ export function ExplorerView() {
   useSection(state);
   useEffect(() => exports.watch(), []);
   useEffect(() => () => player.close(), []);
+  useSignalEffect(() => {
+    // A series is of the plane it began from, drawn as it was chosen then.
+    void [state.definition.value, state.choices.value];
+    untracked(() => player.close());
+  });
   return (
     <main id="main" class="view explorer" data-view="explorer" tabIndex={-1}>
       <h1 class="visually-hidden">Explorer</h1>

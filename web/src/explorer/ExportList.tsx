@@ -2,7 +2,7 @@ import { sentenceOf } from "../api/client";
 import { service } from "../api/live";
 import type { ExportJob } from "../api/types";
 import { Button } from "../ui/Button";
-import { bytes } from "../ui/numbers";
+import { bytes, fixed } from "../ui/numbers";
 import { CopyButton } from "./CopyButton";
 import { downloadWithToken, hasEnded } from "./export_jobs";
 import type { ExportJobs } from "./export_jobs";
@@ -29,14 +29,24 @@ export function ExportList({ exports }: Props) {
 
 const kinds = { section: "Section", series: "Series" };
 
+function progressWords({ done, total, unit, seconds_left }: ExportJob): string {
+  const far = total > 0 ? `${fixed(done)} of ${fixed(total)} ${unit}` : "";
+  const left = seconds_left === null ? "" : `about ${Math.max(1, Math.round(seconds_left))} s left`;
+  return [far, left].filter(Boolean).join(", ");
+}
+
 function ExportRow({ job, exports }: { job: ExportJob; exports: ExportJobs }) {
   return (
-    <li class="export" data-role="export" data-state={job.state} data-id={job.id}>
+    <li
+      class="export"
+      data-role="export"
+      data-kind={job.kind}
+      data-state={job.state}
+      data-id={job.id}
+    >
       <div class="export-words">
         <strong>{kinds[job.kind]}</strong> {job.sentence || job.state}
-        {job.seconds_left !== null && !hasEnded(job) && (
-          <span class="muted"> About {Math.ceil(job.seconds_left)} s left.</span>
-        )}
+        {!hasEnded(job) && <span class="muted"> {progressWords(job)}</span>}
       </div>
       {!hasEnded(job) && (
         <progress

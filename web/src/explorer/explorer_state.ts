@@ -5,7 +5,6 @@ import { depthOfLayer, extent, leastSpacing } from "./geometry/cuboid";
 import type { Cuboid } from "./geometry/cuboid";
 import type { Angles } from "./geometry/plane";
 import type { PlaneRectangle } from "./geometry/plane_rectangle";
-import { sectionBasis } from "./geometry/section_basis";
 import type { Vector3 } from "./geometry/vector3";
 import { startingCamera } from "./orbit_camera";
 import type { OrbitCamera } from "./orbit_camera";
@@ -24,7 +23,6 @@ import {
 import type { PlacedPlane, PlaneDefinition } from "./plane_state";
 import { defaultChoices } from "./section_choices";
 import type { SectionChoices, Theta } from "./section_choices";
-import { sectionAddress } from "./section_fetch";
 import type { Wish } from "./section_loader";
 import { choicesQuery, planeQuery } from "./section_query";
 import type { Query } from "./section_query";
@@ -35,10 +33,10 @@ import {
   evenPixel,
   fittingPixel,
   readablePixel,
-  visiblePart,
   wholeWindow,
 } from "./section_window";
 import type { SectionWindow } from "./section_window";
+import { wishFor } from "./section_wish";
 import { isKnownHere, thetaFrame } from "./theta_frame";
 import type { Closeup, ExplorerView } from "./view_hash";
 
@@ -56,9 +54,6 @@ export interface ShownFrame {
   pixel: number; // of the screen, the same for all frames
 }
 
-const previewSide = 640;
-/** A preview has so many fewer pixels along a side, in a close-up. */
-const previewCoarseness = 2.5;
 /** A voxel is shown at most so many pixels of the screen wide. */
 const mostEnlarged = 24;
 
@@ -162,53 +157,20 @@ export class ExplorerState {
 
   /** What is to be fetched; null while nothing can be. */
   readonly wish = computed<Wish | null>(() => {
-    const { width, height } = this.panel.value;
     const cuboid = this.cuboid.value;
     const placed = this.placed.value;
-    if (!cuboid || !placed || width === 0 || height === 0) return null;
-    const common = {
-      ...planeQuery(placed.definition),
-      ...choicesQuery({ ...this.choices.value, theta: this.shownTheta.value }),
-      generation: String(this.generation.value),
-    };
-    const of = JSON.stringify(this.query.value);
-    const request = (query: Query, sharp: boolean, whole: boolean) => ({
-      address: sectionAddress(query),
-      of,
-      sharp,
-      whole,
+    if (!cuboid || !placed) return null;
+    return wishFor({
+      placed,
+      cuboid,
+      choices: { ...this.choices.value, theta: this.shownTheta.value },
+      of: JSON.stringify(this.query.value),
+      seen: this.seen.value,
+      closeup: this.closeup.value,
+      width: this.panel.value.width,
+      height: this.panel.value.height,
+      generation: this.generation.value,
     });
-    const preview = { format: "jpeg", quality: "85" };
-    const closeup = this.closeup.value;
-    const seen = this.seen.value;
-    if (closeup && seen) {
-      const window = closeupWindow(seen, width, height, closeup);
-      const basis = sectionBasis(this.choices.value.basis, placed.plane);
-      const least = leastSpacing(cuboid);
-      const part = (pixel: number): Query | null => {
-        const theta = visiblePart(window, Math.max(pixel, least), basis);
-        return (
-          theta && {
-            ...common,
-            ...choicesQuery({ ...this.choices.value, theta }),
-            ...(pixel > least ? { pixel: String(pixel) } : {}),
-          }
-        );
-      };
-      const sharp = part(closeup.pixel);
-      const quick = part(readablePixel(closeup.pixel * previewCoarseness));
-      if (!sharp || !quick) return null;
-      return {
-        preview: request({ ...quick, ...preview }, false, false),
-        sharp: request({ ...sharp, format: "png" }, true, false),
-      };
-    }
-    const smaller = Math.min(1, previewSide / Math.max(width, height));
-    const fit = `${Math.ceil(width * smaller)}x${Math.ceil(height * smaller)}`;
-    return {
-      preview: request({ ...common, ...preview, fit }, false, true),
-      sharp: request({ ...common, format: "png", fit: `${width}x${height}` }, true, true),
-    };
   });
 
   readonly view = computed<ExplorerView>(() => ({

@@ -51,8 +51,9 @@ export function FilmStrip(props: Props) {
     observer.observe(element);
     const turn = (event: WheelEvent) => {
       if (Math.abs(event.deltaY) <= Math.abs(event.deltaX)) return;
-      event.preventDefault();
+      const before = element.scrollLeft;
       element.scrollLeft += event.deltaY;
+      if (element.scrollLeft !== before) event.preventDefault();
     };
     element.addEventListener("wheel", turn, { passive: false });
     return () => {

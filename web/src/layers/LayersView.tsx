@@ -1,4 +1,5 @@
 import { signal, useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
 import { sampleProgress } from "../api/live";
@@ -228,30 +229,27 @@ function useKeys(act: (key: LayerKey) => void): void {
 }
 
 /** Beside the picture: this layer, or the list of all rejected frames. */
-function Panel({ children }: { children: preact.ComponentChildren }) {
+function Panel({ children }: { children: ComponentChildren }) {
   const list = useSignal(false);
-  if (!judged.value) return <aside class="layer-panel">{children}</aside>;
+  const choice = (label: string, isList: boolean) => (
+    <button
+      type="button"
+      class="segment-button"
+      aria-pressed={list.value === isList}
+      onClick={() => (list.value = isList)}
+    >
+      {label}
+    </button>
+  );
   return (
     <aside class="layer-panel" aria-label="About the layer">
-      <div class="segments" role="group" aria-label="Shown here">
-        <button
-          type="button"
-          class="segment-button"
-          aria-pressed={!list.value}
-          onClick={() => (list.value = false)}
-        >
-          This layer
-        </button>
-        <button
-          type="button"
-          class="segment-button"
-          aria-pressed={list.value}
-          onClick={() => (list.value = true)}
-        >
-          Rejected frames
-        </button>
-      </div>
-      {list.value ? <RejectedList /> : children}
+      {judged.value && (
+        <div class="segments" role="group" aria-label="Shown here">
+          {choice("This layer", false)}
+          {choice("Rejected frames", true)}
+        </div>
+      )}
+      {judged.value && list.value ? <RejectedList /> : children}
     </aside>
   );
 }

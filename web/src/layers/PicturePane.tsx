@@ -1,6 +1,6 @@
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 
 import { percent } from "../ui/numbers";
 import { controlPicture } from "./picture_controls";
@@ -59,7 +59,8 @@ export function PicturePane(props: Props) {
     };
   }, []);
 
-  useEffect(() => screen?.show(props.picture), [screen, props.picture]);
+  // Before anybody can see the new layer's number beside the old one's picture.
+  useLayoutEffect(() => screen?.show(props.picture), [screen, props.picture]);
 
   return (
     <div class="pane">

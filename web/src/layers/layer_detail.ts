@@ -3,6 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { getJson, isAbort, sentenceOf } from "../api/client";
 import type { LayerDetail, Sharpness } from "../api/types";
 import { committed, marks } from "./layers_state";
+import { retryWaitMs } from "./retry_wait";
 
 export interface Answer<T> {
   readonly value: T | null;
@@ -11,6 +12,7 @@ export interface Answer<T> {
 }
 
 const onItsWay = { value: null, trouble: "" };
+const usualWaitMs = 1500;
 
 /** What an address answers with; asked anew when `version` changes, and then kept until it comes. */
 function useAnswer<T>(address: string | null, version = ""): Answer<T> {
@@ -22,14 +24,22 @@ function useAnswer<T>(address: string | null, version = ""): Answer<T> {
   useEffect(() => {
     if (address === null) return;
     const ended = new AbortController();
-    getJson<T>(address, ended.signal).then(
-      (value) => setState({ address, answer: { value, trouble: "" } }),
-      (error: unknown) => {
-        if (isAbort(error)) return;
-        setState({ address, answer: { value: null, trouble: sentenceOf(error) } });
-      },
-    );
-    return () => ended.abort();
+    let retry: ReturnType<typeof setTimeout> | undefined;
+    const ask = () =>
+      void getJson<T>(address, ended.signal).then(
+        (value) => setState({ address, answer: { value, trouble: "" } }),
+        (error: unknown) => {
+          if (isAbort(error)) return;
+          const wait = retryWaitMs(error, usualWaitMs);
+          if (wait !== null) retry = setTimeout(ask, wait);
+          else setState({ address, answer: { value: null, trouble: sentenceOf(error) } });
+        },
+      );
+    ask();
+    return () => {
+      ended.abort();
+      clearTimeout(retry);
+    };
   }, [address, version]);
 
   return address !== null && state.address === address ? state.answer : onItsWay;

@@ -25,16 +25,16 @@ export function controlPicture(of: ControlledPicture): () => void {
   const ended = new AbortController();
   const { signal } = ended;
 
+  let touched = false;
   const gestures = new PointerGestures({
-    dragged: (by) => screen.change((view, ...of) => moved(view, by, ...of)),
+    dragged: (by) => screen.change((view, ...frame) => moved(view, by, ...frame)),
     pinched: (factor, at, by) =>
-      screen.change((view, ...of) => zoomed(moved(view, by, ...of), factor, at, ...of)),
-    doubleTapped: (at) => screen.change((view, ...of) => tapped(view, at, ...of)),
+      screen.change((view, ...frame) => zoomed(moved(view, by, ...frame), factor, at, ...frame)),
+    doubleTapped: (at) => screen.change((view, ...frame) => tapped(view, at, ...frame)),
     swiped: (direction) => {
       if (touched && screen.allInSight()) of.turned(direction === -1 ? 1 : -1);
     },
   });
-  let touched = false;
 
   const place = (event: PointerEvent | WheelEvent): Point => {
     const { left, top } = canvas.getBoundingClientRect();
@@ -73,7 +73,7 @@ export function controlPicture(of: ControlledPicture): () => void {
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? lineHeight : 1;
       const step = event.ctrlKey ? pinchStep : wheelStep;
       const factor = Math.exp(-event.deltaY * lines * step);
-      screen.change((view, ...of) => zoomed(view, factor, place(event), ...of));
+      screen.change((view, ...frame) => zoomed(view, factor, place(event), ...frame));
     },
     { signal, passive: false },
   );

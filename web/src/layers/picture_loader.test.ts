@@ -45,7 +45,6 @@ describe("loading", () => {
     await settle();
     expect(addresses()).toEqual(["a", "b", "c"]);
     expect(loader.picture("a")).toBe("A");
-    expect(loader.settled()).toBe(false);
   });
 
   it("aborts what is no longer wanted, and asks no more for it", async () => {
@@ -72,7 +71,6 @@ describe("loading", () => {
     await settle();
     loader.want(["a"]);
     expect(addresses()).toEqual(["a"]);
-    expect(loader.settled()).toBe(true);
   });
 
   it("gives back a picture that came after its request was aborted", async () => {
@@ -140,7 +138,17 @@ describe("failures", () => {
     await vi.advanceTimersByTimeAsync(60_000);
     expect(addresses()).toEqual(["a"]);
     expect(loader.failure("a")?.message).toBe("no");
-    expect(loader.settled()).toBe(true);
+  });
+
+  it("are forgotten with what is no longer wanted", async () => {
+    const { asked, loader, addresses } = bench();
+    loader.want(["a"]);
+    asked[0]?.fail(refusal(401));
+    await settle();
+    loader.want([]);
+    loader.want(["a"]);
+    expect(addresses()).toEqual(["a", "a"]);
+    expect(loader.failure("a")).toBeUndefined();
   });
 
   it("are tried again when the server says when", async () => {

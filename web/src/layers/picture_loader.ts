@@ -1,4 +1,4 @@
-import { ApiError, ConnectionError } from "../api/client";
+import { retryWaitMs } from "./retry_wait";
 
 /**
  * Fetches pictures in the order in which they are wanted, a few at a time, and keeps a bounded
@@ -20,8 +20,6 @@ export interface PictureLoaderLimits {
   readonly atOnce: number;
 }
 
-/** Answers that mean "not now": too many requests, queue full. */
-const passing = new Set([429, 502, 503, 504]);
 const shortestWaitMs = 500;
 const longestWaitMs = 8000;
 
@@ -50,6 +48,9 @@ export class PictureLoader<Picture> {
         request.abort();
       }
     }
+    for (const address of this.failures.keys()) {
+      if (!still.has(address)) this.failures.delete(address); // it is tried again when it is wanted
+    }
     for (const address of addresses) this.touch(address);
     this.forgetOldest(still);
     this.startNext();
@@ -62,11 +63,6 @@ export class PictureLoader<Picture> {
   /** Why a picture will not come by itself. */
   failure(address: string): Error | undefined {
     return this.failures.get(address);
-  }
-
-  /** Whether each wanted picture is there or will not come. */
-  settled(): boolean {
-    return this.wanted.every((address) => this.pictures.has(address) || this.failures.has(address));
   }
 
   close(): void {
@@ -108,24 +104,17 @@ export class PictureLoader<Picture> {
   }
 
   private failed(address: string, error: unknown): void {
-    const wait = this.waitAfter(error);
+    const usual = Math.min(Math.max(this.waitMs * 2, shortestWaitMs), longestWaitMs);
+    const wait = retryWaitMs(error, usual);
     if (wait === null) {
       this.failures.set(address, error instanceof Error ? error : new Error(String(error)));
       return;
     }
+    this.waitMs = usual;
     this.waiting ??= setTimeout(() => {
       this.waiting = null;
       this.startNext();
     }, wait);
-  }
-
-  /** How long until it may go better; nothing where it will not. */
-  private waitAfter(error: unknown): number | null {
-    const answered = error instanceof ApiError && passing.has(error.status);
-    if (!answered && !(error instanceof ConnectionError)) return null;
-    this.waitMs = Math.min(Math.max(this.waitMs * 2, shortestWaitMs), longestWaitMs);
-    const asked = answered ? error.retryAfter : null;
-    return asked === null ? this.waitMs : Math.min(asked * 1000, longestWaitMs);
   }
 
   /** Moves a picture to the end of those that are forgotten first. */

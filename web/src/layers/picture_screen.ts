@@ -67,6 +67,7 @@ export class PictureScreen {
   }
 
   show(picture: ShownPicture | null): void {
+    if (picture?.source !== this.picture?.source) this.canvas.dataset.state = "loading";
     this.picture = picture;
     this.paintSoon();
   }

@@ -1,7 +1,7 @@
-import { signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 
-import { ApiError, getJson, isAbort, withQuery } from "../api/client";
-import { connection, onAttempt, onGap } from "../api/live";
+import { ApiError, getJson, withQuery } from "../api/client";
+import { connection, onAttempt, onGap, sampleProgress, status } from "../api/live";
 import type { Attempt, History, Rejected } from "../api/types";
 import { AttemptHistory, type RejectedNote } from "./attempt_history";
 
@@ -10,6 +10,7 @@ import { AttemptHistory, type RejectedNote } from "./attempt_history";
 export const chartMetrics = ["sharpness_ratio", "brightness"] as const;
 const rejectedShown = 20;
 const quickest_ms = 250; // between two looks of the charts at what is new
+const refused_ms = 10_000; // until a server that had too much to do is asked again
 
 export const history = new AttemptHistory(chartMetrics);
 /** Grows when `history` did. */
@@ -18,8 +19,11 @@ export const historyVersion = signal(0);
 export const rejectedOfLate = signal<RejectedNote[]>([]);
 export const rejectedCount = signal(0);
 
-let waiting: Attempt[] | null = null; // attempts that came while the rest is being fetched
+/** Attempts that came before the rest was fetched; null when all that is known is in `history`. */
+let waiting: Attempt[] | null = [];
 let fetching = false;
+let wantedAgain = false; // while it was being fetched
+let missed = false; // for want of a connection
 let due: number | undefined;
 
 function tell(): void {
@@ -30,8 +34,10 @@ function tell(): void {
 }
 
 function take(attempt: Attempt): void {
-  if (waiting) waiting.push(attempt);
-  else if (history.append(attempt)) noteRejected(attempt);
+  if (waiting) {
+    waiting.push(attempt);
+    fetchOnce();
+  } else if (history.append(attempt)) noteRejected(attempt);
 }
 
 function noteRejected(attempt: Attempt): void {
@@ -44,9 +50,10 @@ function noteRejected(attempt: Attempt): void {
 }
 
 async function fetchAll(): Promise<void> {
+  wantedAgain = fetching;
   if (fetching) return;
   fetching = true;
-  waiting = [];
+  waiting ??= [];
   try {
     const metrics = chartMetrics.join(",");
     history.load(
@@ -56,23 +63,34 @@ async function fetchAll(): Promise<void> {
       withQuery("/api/v1/rejected", { limit: rejectedShown }),
     );
     rejectedOfLate.value = rejected.filter((attempt) => attempt.id <= history.last);
-  } catch (error) {
-    // Without a journal there is no history; without a connection it comes with the next one.
-    if (!(error instanceof ApiError) && !isAbort(error)) missed = true;
-  } finally {
-    fetching = false;
-    const came = waiting ?? [];
+    const came = waiting;
     waiting = null;
     came.forEach(take);
     rejectedCount.value = history.rejectedCount;
     tell();
+  } catch (error) {
+    // Without a connection it is fetched with the next one.
+    if (error instanceof ApiError) setTimeout(() => void fetchAll(), refused_ms);
+    else missed = true;
+  } finally {
+    fetching = false;
   }
+  if (wantedAgain) void fetchAll();
 }
 
-let missed = false;
 let begun = false;
+let fetchedOnce = false;
 
-/** Begins to collect; from then on it goes on, whatever view is shown. */
+function fetchOnce(): void {
+  if (fetchedOnce) return;
+  fetchedOnce = true;
+  void fetchAll();
+}
+
+/**
+ * Begins to collect; from then on it goes on, whatever view is shown. Nothing is asked for before
+ * there is something: of a rig that has not begun there is no history yet.
+ */
 export function collectHistory(): void {
   if (begun) return;
   begun = true;
@@ -83,5 +101,8 @@ export function collectHistory(): void {
     missed = false;
     void fetchAll();
   });
-  void fetchAll();
+  effect(() => {
+    const committed = sampleProgress.value?.committed || status.value?.committed;
+    if (committed) fetchOnce();
+  });
 }

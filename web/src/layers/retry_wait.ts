@@ -1,0 +1,15 @@
+import { ApiError, ConnectionError } from "../api/client";
+
+/** Answers that mean "not now": too many requests, a full queue, work that was given up. */
+const passing = new Set([429, 502, 503, 504]);
+const longestMs = 8000;
+
+/**
+ * How long to wait until asking again may help: as long as the server says, else `usualMs`. Nothing
+ * where it would not help.
+ */
+export function retryWaitMs(error: unknown, usualMs: number): number | null {
+  if (error instanceof ConnectionError) return Math.min(usualMs, longestMs);
+  if (!(error instanceof ApiError) || !passing.has(error.status)) return null;
+  return Math.min(error.retryAfter === null ? usualMs : error.retryAfter * 1000, longestMs);
+}
