@@ -16,6 +16,10 @@ interface Props {
   tools: SectionTools;
 }
 
+/** As a person writes what the tool says on a terminal. */
+const sentence = (text: string): string =>
+  (text.charAt(0).toUpperCase() + text.slice(1)).replace(/ um\b/g, "\u00a0µm");
+
 /** The section's picture, pixel for pixel of the screen where it is sharp. */
 export function SectionView({ state, tools }: Props) {
   const box = useRef<HTMLDivElement>(null);
@@ -94,7 +98,9 @@ export function SectionView({ state, tools }: Props) {
       </p>
       <SectionOverlay state={state} tools={tools} draft={draft} />
       {state.failure.value && (
-        <p class="section-failure notice notice-warn">{state.failure.value}</p>
+        <p class="section-failure notice notice-warn" role="status">
+          {sentence(state.failure.value)}
+        </p>
       )}
     </div>
   );

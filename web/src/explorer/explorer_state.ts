@@ -28,13 +28,7 @@ import { choicesQuery, planeQuery } from "./section_query";
 import type { Query } from "./section_query";
 import { rectangleOf } from "./section_record";
 import type { SectionPicture } from "./section_record";
-import {
-  closeupWindow,
-  evenPixel,
-  fittingPixel,
-  readablePixel,
-  wholeWindow,
-} from "./section_window";
+import { closeupWindow, evenPixel, fittingPixel, wholeWindow } from "./section_window";
 import type { SectionWindow } from "./section_window";
 import { wishFor } from "./section_wish";
 import { isKnownHere, thetaFrame } from "./theta_frame";
@@ -53,9 +47,6 @@ export interface ShownFrame {
   placed: PlacedPlane;
   pixel: number; // of the screen, the same for all frames
 }
-
-/** A voxel is shown at most so many pixels of the screen wide. */
-const mostEnlarged = 24;
 
 /** What the explorer shows, in one place: every control reads it from here and changes it here. */
 export class ExplorerState {
@@ -148,11 +139,6 @@ export class ExplorerState {
     const shown = rectangleOf(record);
     const reduced = sharp && record.pixel_um > record.full.pixel_um;
     return wholeWindow(shown, width, height, reduced ? record.pixel_um : fitting(shown));
-  });
-
-  readonly finestPixel = computed(() => {
-    const cuboid = this.cuboid.value;
-    return cuboid ? readablePixel(leastSpacing(cuboid) / mostEnlarged) : 1;
   });
 
   /** What is to be fetched; null while nothing can be. */

@@ -10,23 +10,26 @@ import type { ExplorerState } from "./explorer_state";
 export function useSample(state: ExplorerState): void {
   useEffect(() => {
     const abort = new AbortController();
-    const learn = () =>
-      getJson<Sample>("/api/v1/sample", abort.signal).then(
-        (sample) => {
-          state.failure.value = "";
-          state.learn(sample);
-        },
-        (error) => {
-          if (!isAbort(error)) state.failure.value = sentenceOf(error);
-        },
-      );
-    void learn();
+    let asking = false;
+    const learn = async () => {
+      if (asking) return;
+      asking = true;
+      try {
+        state.learn(await getJson<Sample>("/api/v1/sample", abort.signal));
+        state.failure.value = "";
+      } catch (error) {
+        if (!isAbort(error)) state.failure.value = sentenceOf(error);
+      } finally {
+        asking = false;
+      }
+    };
+    // At once; again, while there is none yet, when something is heard of it or of the server.
     const stopHearing = effect(() => {
       const progress = sampleProgress.value;
-      const live = connection.value.state === "live";
+      void connection.value.state;
       untracked(() => {
         if (progress && state.sample.value) state.grow(progress);
-        else if (live || progress) void learn();
+        else if (!state.sample.value) void learn();
       });
     });
     const stopGaps = onGap(() => void learn());
