@@ -1,12 +1,10 @@
-import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
+import { useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 
 import type { ExplorerState } from "./explorer_state";
 import type { Vector3 } from "./geometry/vector3";
 import { pressedOnSection, sectionKeys } from "./section_keys";
 import type { SectionTools } from "./section_tools";
-import { placementOf } from "./section_window";
-import type { Placement } from "./section_window";
 import { SectionOverlay } from "./SectionOverlay";
 import { useSectionPointer } from "./use_section_pointer";
 import { useSize } from "./use_size";
@@ -35,14 +33,6 @@ export function SectionView({ state, tools }: Props) {
     };
   });
 
-  const placement = useComputed<Placement | null>(() => {
-    const window = state.window.value;
-    const record = state.shownPicture.value?.record;
-    if (!window || !record) return null;
-    const { width, height } = record.picture;
-    return placementOf(window, record.rectangle.origin_um, record.pixel_um, width, height);
-  });
-
   useSignalEffect(() => {
     const picture = state.shownPicture.value;
     const element = canvas.current;
@@ -62,7 +52,7 @@ export function SectionView({ state, tools }: Props) {
   });
   useSignalEffect(() => {
     const element = canvas.current;
-    const place = placement.value;
+    const place = state.placement.value;
     const { ratio } = state.panel.value;
     if (!element || !place) return;
     element.style.width = `${place.width / ratio}px`;
@@ -72,7 +62,7 @@ export function SectionView({ state, tools }: Props) {
   });
 
   const draft = useSignal<[Vector3, Vector3] | null>(null); // a rectangle that is being drawn
-  useSectionPointer(box, state, tools, placement, draft);
+  useSectionPointer(box, state, tools, draft);
 
   return (
     <div
@@ -91,7 +81,7 @@ export function SectionView({ state, tools }: Props) {
         aria-label="Picture of the section"
         aria-describedby="section-keys"
         onKeyDown={(event) => pressedOnSection(event, state, tools)}
-        hidden={!placement.value}
+        hidden={!state.placement.value}
       />
       <p id="section-keys" hidden>
         {sectionKeys}
