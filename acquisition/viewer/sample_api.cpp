@@ -154,7 +154,11 @@ struct SampleApi::State {
                                         words.end());
     const std::string& first = words.empty() ? request.path : words[0];
     if (first != "exports") require_method(request, {"GET"});
-    if (!std::filesystem::exists(live.folder() / "sample.toml")) {
+    // A page that is opened before a job's first layer asks for its lists: there is nothing in
+    // them.
+    const bool is_list = rest.empty() && (first == "layers" || first == "rejected" ||
+                                          first == "history" || first == "exports");
+    if (!is_list && !live.is_there()) {
       throw Refusal(404, "there is no sample yet at " + live.folder().string());
     }
     if (request.path.starts_with(kVolume)) {

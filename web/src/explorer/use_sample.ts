@@ -6,6 +6,8 @@ import { connection, onGap, sampleProgress } from "../api/live";
 import type { Sample } from "../api/types";
 import type { ExplorerState } from "./explorer_state";
 
+const nothingYet = "No layer has been photographed yet.";
+
 /** Keeps what is known of the sample as it is, while it grows. */
 export function useSample(state: ExplorerState): void {
   useEffect(() => {
@@ -23,13 +25,16 @@ export function useSample(state: ExplorerState): void {
         asking = false;
       }
     };
-    // At once; again, while there is none yet, when something is heard of it or of the server.
+    // Once there is a layer; again, while it is not known, when something is heard of it or of the
+    // server.
     const stopHearing = effect(() => {
       const progress = sampleProgress.value;
       void connection.value.state;
       untracked(() => {
-        if (progress && state.sample.value) state.grow(progress);
-        else if (!state.sample.value) void learn();
+        if (!progress) return;
+        if (state.sample.value) state.grow(progress);
+        else if (progress.layers_present > 0) void learn();
+        else state.failure.value = nothingYet;
       });
     });
     const stopGaps = onGap(() => void learn());
