@@ -53,11 +53,14 @@ struct RequestReader::State {
     return Outcome::refused;
   }
 
-  Refusal refusal_of(const boost::beast::error_code& error) const {
+  /// `unread`: the bytes that the parser has not taken.
+  Refusal refusal_of(const boost::beast::error_code& error, const std::string& unread) const {
     if (error == http::error::body_limit) return kBodyTooLarge;
     if (error != http::error::header_limit) return kUnreadable;
     // A first line that has no end in so many bytes is all target.
-    return parser->get().target().empty() ? kTargetTooLong : kHeaderTooLong;
+    const bool line_ended =
+        !parser->get().target().empty() || unread.find('\n') != std::string::npos;
+    return line_ended ? kHeaderTooLong : kTargetTooLong;
   }
 
   /// Once the header is there. False when what it says is refused.
@@ -95,7 +98,7 @@ RequestReader::Outcome RequestReader::take(std::string& bytes) {
     const std::size_t used =
         state.parser->put(boost::asio::const_buffer(bytes.data(), bytes.size()), error);
     if (error && error != http::error::need_more) {
-      return state.refuse(state.refusal_of(error));
+      return state.refuse(state.refusal_of(error, bytes));
     }
     bytes.erase(0, used);
     if (state.parser->is_header_done() && !state.check_header()) return Outcome::refused;
@@ -104,7 +107,7 @@ RequestReader::Outcome RequestReader::take(std::string& bytes) {
   if (!state.parser->is_done()) {
     // The parser looks at a header's length only when it has all of it.
     const bool too_long = !state.parser->is_header_done() && bytes.size() > kLongestHeader;
-    return too_long ? state.refuse(state.refusal_of(http::error::header_limit))
+    return too_long ? state.refuse(state.refusal_of(http::error::header_limit, bytes))
                     : Outcome::needs_more;
   }
   return Outcome::complete;

@@ -116,6 +116,7 @@ ordered_json columns_json(const std::vector<std::optional<double>>& values) {
 }  // namespace
 
 std::optional<JournalReader> LayerRecords::open_journal() const {
+  if (!live_.is_there()) return std::nullopt;
   const fs::path path = live_.look()->sample.folder.journal_path();
   if (!fs::exists(path)) return std::nullopt;
   return std::optional<JournalReader>(std::in_place, path, journal_);
@@ -150,13 +151,14 @@ ApiResponse LayerRecords::list(const ApiRequest& request) const {
   const std::int64_t from =
       number_in(request, "from", 1, 1, kLargestLayer, "a layer number, 1 to 999999");
   const std::int64_t limit = limit_of(request);
-  const auto view = live_.look();
   std::vector<LayerRow> rows;
-  std::int64_t count = view->sample.tail.layers_present();
+  std::int64_t count = 0;
   if (const auto journal = open_journal()) {
     rows = journal->committed_layers(from, limit);
     count = journal->committed_count();
-  } else {
+  } else if (live_.is_there()) {
+    const auto view = live_.look();
+    count = view->sample.tail.layers_present();
     for (std::int64_t layer = from; layer <= std::min(count, from + limit - 1); ++layer) {
       rows.push_back(layer_on_disk(view->sample.folder, layer));
     }

@@ -58,6 +58,10 @@ void LiveSample::refresh() {
   view_ = std::move(opened);
 }
 
+bool LiveSample::is_there() const {
+  return fs::exists(folder_ / "sample.toml");
+}
+
 std::shared_ptr<const SampleView> LiveSample::look() {
   const std::lock_guard lock(mutex_);
   refresh();

@@ -34,6 +34,9 @@ class LiveSample {
 
   const std::filesystem::path& folder() const { return folder_; }
 
+  /// Whether there is a sample yet.
+  bool is_there() const;
+
   /// The sample as it is now. Throws SampleError where it is none or cannot be read.
   std::shared_ptr<const SampleView> look();
 

@@ -44,3 +44,5 @@ export async function command(page, name, { reason, token } = {}) {
 
 /** The answer that asks for a token is an error to the browser's console; no other is. */
 export const askedForToken = /status of 401/;
+/** So is the one that says that it is a wrong one. */
+export const wrongToken = /status of 403/;

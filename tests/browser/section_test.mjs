@@ -80,6 +80,55 @@ test("the plane is turned by the keyboard in the cuboid, and the address follows
   await until("another address", () => page.url() !== address);
 });
 
+test("a rotation is played, and each frame is a section of its own", async () => {
+  const { page } = tab;
+  const player = page.getByRole("group", { name: "Player" });
+  await player.getByRole("button", { name: "Play" }).click();
+  const seen = new Set();
+  await until(
+    "five frames",
+    async () => {
+      seen.add(await commandOf(page));
+      seen.add(await player.locator(".player-label").textContent());
+      return seen.size > 6;
+    },
+    { said: () => [...seen].join("; ") },
+  );
+  await player.getByRole("button", { name: "Pause" }).click();
+  await player.getByRole("button", { name: "Back" }).click();
+  await sharpSection(page);
+});
+
+test("a distance is measured in micrometres", async () => {
+  const { page } = tab;
+  await page.getByRole("button", { name: "Measure" }).click();
+  const box = await section(page).boundingBox();
+  const y = box.y + box.height / 2;
+  const [left, right] = [box.x + box.width / 4, box.x + (box.width * 3) / 4];
+  await page.mouse.click(left, y);
+  await page.mouse.click(right, y);
+  const words = await page.locator('[data-role="distance"]').textContent();
+  const [, number, unit] = /([\d.\s\u202f\u00a0]+)(µm|mm)/.exec(words);
+  const told = Number(number.replace(/\s/g, "")) * (unit === "mm" ? 1000 : 1);
+  // Where it was clicked, by the picture's own matrix.
+  const pixel = await page.evaluate(
+    async (command) => {
+      const word = (name) => new RegExp(`--${name}=(\\S+)`).exec(command)?.[1];
+      const query = new URLSearchParams();
+      for (const name of ["points", "normal", "through", "pixel", "theta", "basis"]) {
+        const value = word(name);
+        if (value) query.set(name, value.replaceAll("'", ""));
+      }
+      return (await (await fetch(`/api/v1/section/outline?${query}`)).json()).pixel_um;
+    },
+    await commandOf(page),
+  );
+  const columns = await section(page).evaluate(({ width }) => width);
+  const expected = ((right - left) / box.width) * columns * pixel;
+  assert.ok(Math.abs(told - expected) < 2 * pixel + expected / 100, `${told} µm, not ${expected}`);
+  await page.getByRole("button", { name: "Measure" }).click();
+});
+
 test("a link opens the same view in another browser", async () => {
   const command = await commandOf(tab.page);
   const other = await Tab.open(browser);

@@ -64,6 +64,18 @@ TEST(RequestReader, RefusesABodyThatDoesNotSayHowLongItIs) {
   EXPECT_EQ(refusal_of("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"), 411);
 }
 
+TEST(RequestReader, RefusesALongHeaderAsOneHoweverItComes) {
+  RequestReader reader;
+  std::string bytes = "GET / HTTP/1.1\r\nX: ";
+  Outcome outcome = Outcome::needs_more;
+  for (int pieces = 0; outcome == Outcome::needs_more && pieces < 20; ++pieces) {
+    bytes += std::string(4096, 'a');
+    outcome = reader.take(bytes);
+  }
+  ASSERT_EQ(outcome, Outcome::refused);
+  EXPECT_EQ(reader.refusal().status, 431);
+}
+
 TEST(RequestReader, RefusesWhatIsTooLong) {
   EXPECT_EQ(refusal_of("GET /" + std::string(9000, 'a') + " HTTP/1.1\r\n\r\n"), 414);
   EXPECT_EQ(refusal_of("GET /" + std::string(20000, 'a')), 414);

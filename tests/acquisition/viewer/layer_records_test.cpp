@@ -168,6 +168,20 @@ TEST_F(LayerRecordsOfAnImport, AreEmptyAtTheBeginning) {
   EXPECT_EQ(ask("/api/v1/layers/1/image").status, 404);
 }
 
+TEST(LayerRecords, AreEmptyBeforeThereIsASample) {
+  const tests::TemporaryFolder folder;
+  const SampleApi api(folder / "not yet", {});
+  const auto asked = [&](const std::string& path) {
+    return api.answer({.method = "GET", .path = "/api/v1/" + path});
+  };
+  EXPECT_EQ(json::parse(asked("layers").body), (json{{"count", 0}, {"layers", json::array()}}));
+  EXPECT_EQ(json::parse(asked("rejected").body), (json{{"count", 0}, {"rejected", json::array()}}));
+  EXPECT_EQ(json::parse(asked("exports").body), (json{{"exports", json::array()}}));
+  EXPECT_EQ(json::parse(asked("history").body).at("id"), json::array());
+  EXPECT_EQ(asked("layers/1").status, 404);
+  EXPECT_EQ(asked("sample").status, 404);
+}
+
 TEST_F(LayerRecordsOfAnImport, SayThatAJournalCannotBeRead) {
   std::ofstream(sample_.journal_path()) << "this is no journal of ours";
   EXPECT_EQ(ask("/api/v1/layers").status, 503);

@@ -34,7 +34,10 @@ export function ExplorerView() {
   useSignalEffect(() => {
     // A series is of the plane it began from, drawn as it was chosen then.
     void [state.definition.value, state.choices.value];
-    untracked(() => player.close());
+    untracked(() => {
+      player.close();
+      tools.measured.value = null; // its places were on another plane
+    });
   });
   return (
     <main id="main" class="view explorer" data-view="explorer" tabIndex={-1}>

@@ -28,7 +28,8 @@ export function SectionStatus({ state, tools }: Props) {
 }
 
 function placeWords(state: ExplorerState, tools: SectionTools): string {
-  const place = tools.cursor.value;
+  const pointer = tools.pointer.value;
+  const place = pointer && state.sampleUnder(pointer);
   const cuboid = state.cuboid.value;
   if (!place || !cuboid) return "Point at the section to read its place.";
   const [x, y, z] = place.map((value) => fixed(value, 1));

@@ -1,12 +1,10 @@
-import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
+import { useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 
 import type { ExplorerState } from "./explorer_state";
 import type { Vector3 } from "./geometry/vector3";
 import { pressedOnSection, sectionKeys } from "./section_keys";
 import type { SectionTools } from "./section_tools";
-import { placementOf } from "./section_window";
-import type { Placement } from "./section_window";
 import { SectionOverlay } from "./SectionOverlay";
 import { useSectionPointer } from "./use_section_pointer";
 import { useSize } from "./use_size";
@@ -15,6 +13,10 @@ interface Props {
   state: ExplorerState;
   tools: SectionTools;
 }
+
+/** As a person writes what the tool says on a terminal. */
+const sentence = (text: string): string =>
+  (text.charAt(0).toUpperCase() + text.slice(1)).replace(/ um\b/g, "\u00a0µm");
 
 /** The section's picture, pixel for pixel of the screen where it is sharp. */
 export function SectionView({ state, tools }: Props) {
@@ -29,14 +31,6 @@ export function SectionView({ state, tools }: Props) {
       height: Math.floor(height * ratio),
       ratio,
     };
-  });
-
-  const placement = useComputed<Placement | null>(() => {
-    const window = state.window.value;
-    const record = state.shownPicture.value?.record;
-    if (!window || !record) return null;
-    const { width, height } = record.picture;
-    return placementOf(window, record.rectangle.origin_um, record.pixel_um, width, height);
   });
 
   useSignalEffect(() => {
@@ -58,7 +52,7 @@ export function SectionView({ state, tools }: Props) {
   });
   useSignalEffect(() => {
     const element = canvas.current;
-    const place = placement.value;
+    const place = state.placement.value;
     const { ratio } = state.panel.value;
     if (!element || !place) return;
     element.style.width = `${place.width / ratio}px`;
@@ -68,7 +62,7 @@ export function SectionView({ state, tools }: Props) {
   });
 
   const draft = useSignal<[Vector3, Vector3] | null>(null); // a rectangle that is being drawn
-  useSectionPointer(box, state, tools, placement, draft);
+  useSectionPointer(box, state, tools, draft);
 
   return (
     <div
@@ -87,14 +81,16 @@ export function SectionView({ state, tools }: Props) {
         aria-label="Picture of the section"
         aria-describedby="section-keys"
         onKeyDown={(event) => pressedOnSection(event, state, tools)}
-        hidden={!placement.value}
+        hidden={!state.placement.value}
       />
       <p id="section-keys" hidden>
         {sectionKeys}
       </p>
       <SectionOverlay state={state} tools={tools} draft={draft} />
       {state.failure.value && (
-        <p class="section-failure notice notice-warn">{state.failure.value}</p>
+        <p class="section-failure notice notice-warn" role="status">
+          {sentence(state.failure.value)}
+        </p>
       )}
     </div>
   );

@@ -26,16 +26,10 @@ import type { SectionChoices, Theta } from "./section_choices";
 import type { Wish } from "./section_loader";
 import { choicesQuery, planeQuery } from "./section_query";
 import type { Query } from "./section_query";
-import { rectangleOf } from "./section_record";
+import { rectangleOf, sampleAt } from "./section_record";
 import type { SectionPicture } from "./section_record";
-import {
-  closeupWindow,
-  evenPixel,
-  fittingPixel,
-  readablePixel,
-  wholeWindow,
-} from "./section_window";
-import type { SectionWindow } from "./section_window";
+import { closeupWindow, evenPixel, fittingPixel, placementOf, wholeWindow } from "./section_window";
+import type { Placement, SectionWindow } from "./section_window";
 import { wishFor } from "./section_wish";
 import { isKnownHere, thetaFrame } from "./theta_frame";
 import type { Closeup, ExplorerView } from "./view_hash";
@@ -53,9 +47,6 @@ export interface ShownFrame {
   placed: PlacedPlane;
   pixel: number; // of the screen, the same for all frames
 }
-
-/** A voxel is shown at most so many pixels of the screen wide. */
-const mostEnlarged = 24;
 
 /** What the explorer shows, in one place: every control reads it from here and changes it here. */
 export class ExplorerState {
@@ -150,9 +141,13 @@ export class ExplorerState {
     return wholeWindow(shown, width, height, reduced ? record.pixel_um : fitting(shown));
   });
 
-  readonly finestPixel = computed(() => {
-    const cuboid = this.cuboid.value;
-    return cuboid ? readablePixel(leastSpacing(cuboid) / mostEnlarged) : 1;
+  /** Where the picture lies in the panel. */
+  readonly placement = computed<Placement | null>(() => {
+    const window = this.window.value;
+    const record = this.shownPicture.value?.record;
+    if (!window || !record) return null;
+    const { width, height } = record.picture;
+    return placementOf(window, record.rectangle.origin_um, record.pixel_um, width, height);
   });
 
   /** What is to be fetched; null while nothing can be. */
@@ -228,6 +223,19 @@ export class ExplorerState {
     const layers = this.layersPresent.value;
     if (!cuboid) return 0;
     return depthOfLayer(cuboid, layers > 1 ? layers : cuboid.size[2]);
+  }
+
+  /** What of the sample is at a place of the panel, in CSS pixels; none beside the picture. */
+  sampleUnder([x, y]: readonly [number, number]): Vector3 | null {
+    const record = this.shownPicture.value?.record;
+    const placement = this.placement.value;
+    if (!record || !placement) return null;
+    const { ratio } = this.panel.value;
+    const { width, height } = record.picture;
+    const u = ((x * ratio - placement.left) / placement.width) * width - 0.5;
+    const v = ((y * ratio - placement.top) / placement.height) * height - 0.5;
+    const beside = u < -0.5 || v < -0.5 || u > width - 0.5 || v > height - 0.5;
+    return beside ? null : sampleAt(record, u, v);
   }
 
   /** A definition that is of no plane changes nothing; false tells so. */

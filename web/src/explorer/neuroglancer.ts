@@ -44,7 +44,7 @@ export function neuroglancerLink(
     dimensions: { x, y, z },
     position: [middle[0] / dx, middle[1] / dy, middle[2] / dz],
     crossSectionOrientation: quaternionOf(p, q, away),
-    crossSectionScale: norm([...sample.size]) / 1000,
+    crossSectionScale: norm([...sample.size]) / 600,
     layers: [
       {
         type: "image",

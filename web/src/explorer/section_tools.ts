@@ -8,7 +8,7 @@ export type SectionTool = "look" | "measure" | "rectangle";
 /** Of the panel that shows the section; nothing of it is part of a link. */
 export class SectionTools {
   readonly tool = signal<SectionTool>("look");
-  readonly cursor = signal<Vector3 | null>(null); // micrometres of the sample
+  readonly pointer = signal<readonly [number, number] | null>(null); // over it, in CSS pixels
   readonly measured = signal<{ from: Vector3; to: Vector3 | null } | null>(null);
 
   take(tool: SectionTool): void {

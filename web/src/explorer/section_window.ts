@@ -60,15 +60,21 @@ export const pixelAt = (window: SectionWindow, [a, b]: InPlane): [number, number
 export const sampleAtPixel = (window: SectionWindow, x: number, y: number): Vector3 =>
   inSample(window.frame, placeAt(window, x, y));
 
-/** Nearer by `factor`; what is seen at pixel (x, y) stays there. */
+/** A voxel is shown at most so many pixels of the screen wide. */
+const mostEnlarged = 24;
+
+/**
+ * Nearer by `factor`; what is seen at pixel (x, y) stays there. None when that is far enough away
+ * to see all of it. `voxel`: the least spacing.
+ */
 export function zoomedAt(
   window: SectionWindow,
   factor: number,
   [x, y]: readonly [number, number],
-  finest: number,
+  voxel: number,
 ): Closeup | null {
-  const coarsest = fittingPixel(window.frame, window.width, window.height);
-  const pixel = readablePixel(Math.max(finest, window.pixel / factor));
+  const coarsest = evenPixel(fittingPixel(window.frame, window.width, window.height), voxel);
+  const pixel = readablePixel(Math.max(voxel / mostEnlarged, window.pixel / factor));
   if (pixel >= coarsest) return null;
   const [a, b] = placeAt(window, x, y);
   const middle: InPlane = [a - (x - window.width / 2) * pixel, b - (y - window.height / 2) * pixel];

@@ -1,10 +1,12 @@
 import type { ExplorerState } from "./explorer_state";
+import { leastSpacing } from "./geometry/cuboid";
 import { zoomedAt } from "./section_window";
 
 /** Zooms about a place of the panel, in pixels of the screen; by itself about the middle. */
 export function zoomAbout(state: ExplorerState, factor: number, place?: [number, number]): void {
   const window = state.window.value;
-  if (!window || state.frame.value) return;
+  const cuboid = state.cuboid.value;
+  if (!window || !cuboid || state.frame.value) return;
   const middle: [number, number] = place ?? [window.width / 2, window.height / 2];
-  state.closeup.value = zoomedAt(window, factor, middle, state.finestPixel.value);
+  state.closeup.value = zoomedAt(window, factor, middle, leastSpacing(cuboid));
 }

@@ -6,27 +6,35 @@ import { connection, onGap, sampleProgress } from "../api/live";
 import type { Sample } from "../api/types";
 import type { ExplorerState } from "./explorer_state";
 
+const nothingYet = "No layer has been photographed yet.";
+
 /** Keeps what is known of the sample as it is, while it grows. */
 export function useSample(state: ExplorerState): void {
   useEffect(() => {
     const abort = new AbortController();
-    const learn = () =>
-      getJson<Sample>("/api/v1/sample", abort.signal).then(
-        (sample) => {
-          state.failure.value = "";
-          state.learn(sample);
-        },
-        (error) => {
-          if (!isAbort(error)) state.failure.value = sentenceOf(error);
-        },
-      );
-    void learn();
+    let asking = false;
+    const learn = async () => {
+      if (asking) return;
+      asking = true;
+      try {
+        state.learn(await getJson<Sample>("/api/v1/sample", abort.signal));
+        state.failure.value = "";
+      } catch (error) {
+        if (!isAbort(error)) state.failure.value = sentenceOf(error);
+      } finally {
+        asking = false;
+      }
+    };
+    // Once there is a layer; again, while it is not known, when something is heard of it or of the
+    // server.
     const stopHearing = effect(() => {
       const progress = sampleProgress.value;
-      const live = connection.value.state === "live";
+      void connection.value.state;
       untracked(() => {
-        if (progress && state.sample.value) state.grow(progress);
-        else if (live || progress) void learn();
+        if (!progress) return;
+        if (state.sample.value) state.grow(progress);
+        else if (progress.layers_present > 0) void learn();
+        else state.failure.value = nothingYet;
       });
     });
     const stopGaps = onGap(() => void learn());

@@ -1,4 +1,3 @@
-import type { ReadonlySignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 
 import type { ExplorerState } from "./explorer_state";
@@ -6,10 +5,8 @@ import { Fingers } from "./fingers";
 import { cornersOf, inPlane, turnedBasis } from "./geometry/plane_rectangle";
 import { sectionBasis } from "./geometry/section_basis";
 import type { Vector3 } from "./geometry/vector3";
-import { sampleAt } from "./section_record";
 import type { SectionTools } from "./section_tools";
 import { movedBy, pixelAt, sampleAtPixel } from "./section_window";
-import type { Placement } from "./section_window";
 import { zoomAbout } from "./section_zoom";
 import { customBetween } from "./theta_frame";
 
@@ -18,28 +15,11 @@ const leastDrag = 4;
 
 type Place = [number, number];
 
-/** What of the sample is at a place of the panel, in CSS pixels; none beside the picture. */
-function sampleUnder(
-  state: ExplorerState,
-  placement: Placement | null,
-  [x, y]: Place,
-): Vector3 | null {
-  const picture = state.shownPicture.value;
-  if (!picture || !placement) return null;
-  const { ratio } = state.panel.value;
-  const { width, height } = picture.record.picture;
-  const u = ((x * ratio - placement.left) / placement.width) * width - 0.5;
-  const v = ((y * ratio - placement.top) / placement.height) * height - 0.5;
-  const beside = u < -0.5 || v < -0.5 || u > width - 0.5 || v > height - 0.5;
-  return beside ? null : sampleAt(picture.record, u, v);
-}
-
 /** Mouse and fingers on the section: they look closer, measure, and draw the rectangle. */
 export function useSectionPointer(
   box: { current: HTMLDivElement | null },
   state: ExplorerState,
   tools: SectionTools,
-  placement: ReadonlySignal<Placement | null>,
   draft: { value: [Vector3, Vector3] | null },
 ): void {
   useEffect(() => {
@@ -99,7 +79,7 @@ export function useSectionPointer(
     };
     const move = (event: PointerEvent) => {
       const place = at(event);
-      tools.cursor.value = sampleUnder(state, placement.value, place);
+      tools.pointer.value = place;
       const moved = fingers.move(event.pointerId, ...place);
       const window = state.window.value;
       if (!moved || !window || state.frame.value) return;
@@ -136,13 +116,13 @@ export function useSectionPointer(
           tools.take("look");
         }
       } else if (clicked && tools.tool.value === "measure" && event.type === "pointerup") {
-        const point = sampleUnder(state, placement.value, place);
+        const point = state.sampleUnder(place);
         if (point) tools.measure(point);
       }
       opposite = null;
       pressedAt = null;
     };
-    const left = () => (tools.cursor.value = null);
+    const left = () => (tools.pointer.value = null);
     const wheel = (event: WheelEvent) => {
       event.preventDefault();
       zoomAbout(state, Math.exp(-event.deltaY / 400), onScreen(at(event)));

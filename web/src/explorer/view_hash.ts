@@ -20,6 +20,8 @@ export interface ExplorerView {
   follow: boolean; // the newest face, whichever that is
 }
 
+const digits = 8; // of a close-up: finer than a pixel of the screen
+
 export function viewQuery(view: ExplorerView): string {
   const query = {
     ...(view.plane && !view.follow ? planeQuery(view.plane) : {}),
@@ -27,7 +29,10 @@ export function viewQuery(view: ExplorerView): string {
   };
   if (view.around) query.around = "1";
   if (view.follow) query.follow = "1";
-  if (view.closeup) query.closeup = [...view.closeup.middle, view.closeup.pixel].join(",");
+  if (view.closeup) {
+    const numbers = [...view.closeup.middle, view.closeup.pixel];
+    query.closeup = numbers.map((value) => Number(value.toPrecision(digits))).join(",");
+  }
   return queryText(query);
 }
 

@@ -73,15 +73,25 @@ describe("requests", () => {
     expect(await answer).toMatchObject({ status: 401, message: "a token is needed" });
   });
 
-  it("forget a token that is not accepted", async () => {
+  it.each([401, 403])("forget a token that is answered %i", async (status) => {
     setToken("wrong");
-    fetched.mockImplementation(async () => refused(401, "no"));
+    fetched.mockImplementation(async () => refused(status, "no"));
     const answer = getJson("/a").catch((reason: unknown) => reason);
     await settle();
     expect(tokenQuestion.value?.why).toContain("not accepted");
     tokenQuestion.value?.answer(null);
     await answer;
     expect(token()).toBe("");
+  });
+});
+
+describe("a refusal that no token would change", () => {
+  it("is told as it is", async () => {
+    setToken("");
+    vi.stubGlobal("fetch", async () => refused(403, "not from there"));
+    await expect(getJson("/x")).rejects.toMatchObject({ status: 403, message: "not from there" });
+    expect(tokenQuestion.value).toBeNull();
+    vi.unstubAllGlobals();
   });
 });
 

@@ -157,6 +157,22 @@ describe("a picture that has come", () => {
     expect(state.rectangle.value!.width).toBe(9990);
   });
 
+  it("tells what of the sample is under the pointer, and nothing beside it", () => {
+    const record = {
+      picture: { width: 800, height: 9 },
+      pixel_to_sample: [
+        [12, 0, 0],
+        [0, 12, 0],
+        [0, 0, 40],
+      ],
+    } as Partial<SectionRecord>;
+    state.show(picture({}, record), "a");
+    const { left, top } = state.placement.value!;
+    const under = state.sampleUnder([left + 100.5, top + 2.5])!;
+    [1200, 24, 40].forEach((value, i) => expect(under[i]).toBeCloseTo(value, 9));
+    expect(state.sampleUnder([left - 1, top + 2.5])).toBeNull();
+  });
+
   it("takes the place of the one before, whose memory is given back", () => {
     let closed = 0;
     const image = { close: () => (closed += 1) } as unknown as ImageBitmap;

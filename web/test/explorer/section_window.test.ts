@@ -44,7 +44,7 @@ describe("the window on a section", () => {
 
   it("keeps what is under the cursor where it is when it zooms", () => {
     const before = placeAt(closeup, 200, 100);
-    const zoomed = closeupWindow(frame, 800, 600, zoomedAt(closeup, 2, [200, 100], 0.1)!);
+    const zoomed = closeupWindow(frame, 800, 600, zoomedAt(closeup, 2, [200, 100], 10)!);
     const after = placeAt(zoomed, 200, 100);
     expect(after[0]).toBeCloseTo(before[0], 9);
     expect(after[1]).toBeCloseTo(before[1], 9);
@@ -52,8 +52,15 @@ describe("the window on a section", () => {
   });
 
   it("shows all again when it is zoomed out far enough, and stops at the finest pixel", () => {
-    expect(zoomedAt(closeup, 1e-6, [0, 0], 0.1)).toBeNull();
-    expect(zoomedAt(closeup, 1e6, [0, 0], 0.5)!.pixel).toBe(0.5);
+    expect(zoomedAt(closeup, 1e-6, [0, 0], 10)).toBeNull();
+    expect(zoomedAt(closeup, 1e6, [0, 0], 12)!.pixel).toBe(0.5);
+  });
+
+  it("begins to zoom from a small section that is shown by whole pixels a voxel", () => {
+    const small: PlaneRectangle = { ...frame, width: 990, height: 990 };
+    const whole = wholeWindow(small, 140, 140, evenPixel(fittingPixel(small, 140, 140), 10));
+    expect(whole.pixel).toBe(10);
+    expect(zoomedAt(whole, 1.05, [70, 70], 10)!.pixel).toBeCloseTo(9.5238, 9);
   });
 
   it("is moved no further than to the frame's edge", () => {
