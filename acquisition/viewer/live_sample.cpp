@@ -33,7 +33,7 @@ SampleView::SampleView(const fs::path& folder, std::size_t cache_bytes)
 SampleView::SampleView(const fs::path& folder, std::size_t cache_bytes, const SampleView& before)
     : sample(folder), bricks(sample.volume, cache_bytes, {}, &sample.tail, before.bricks) {}
 
-LiveSample::LiveSample(fs::path folder, std::size_t cache_bytes)
+LiveSample::LiveSample(const fs::path& folder, std::size_t cache_bytes)
     : folder_(fs::absolute(folder).lexically_normal()),
       cache_bytes_(cache_bytes),
       generation_(milliseconds_now()) {}

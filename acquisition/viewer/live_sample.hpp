@@ -30,7 +30,7 @@ struct SampleView {
 class LiveSample {
  public:
   /// The folder need not be there yet.
-  LiveSample(std::filesystem::path folder, std::size_t cache_bytes);
+  LiveSample(const std::filesystem::path& folder, std::size_t cache_bytes);
 
   const std::filesystem::path& folder() const { return folder_; }
 

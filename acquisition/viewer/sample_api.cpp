@@ -94,9 +94,9 @@ struct SampleApi::State {
   VolumeFiles volume;
   mutable ExportQueue exports;
 
-  State(std::filesystem::path sample, ViewerSettings chosen)
+  State(const std::filesystem::path& sample, ViewerSettings chosen)
       : settings(std::move(chosen)),
-        live(std::move(sample), settings.cache_bytes),
+        live(sample, settings.cache_bytes),
         arena(helpers_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
               tbb::task_arena::priority::low),
         series(live),
@@ -186,8 +186,8 @@ struct SampleApi::State {
   }
 };
 
-SampleApi::SampleApi(std::filesystem::path sample, ViewerSettings settings)
-    : state_(std::make_unique<State>(std::move(sample), std::move(settings))) {}
+SampleApi::SampleApi(const std::filesystem::path& sample, ViewerSettings settings)
+    : state_(std::make_unique<State>(sample, std::move(settings))) {}
 
 SampleApi::~SampleApi() = default;
 

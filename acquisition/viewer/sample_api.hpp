@@ -17,7 +17,7 @@ namespace biotomy::acquisition {
 class SampleApi {
  public:
   /// The folder need not be there yet.
-  SampleApi(std::filesystem::path sample, ViewerSettings settings);
+  SampleApi(const std::filesystem::path& sample, ViewerSettings settings);
   ~SampleApi();
   SampleApi(const SampleApi&) = delete;
   SampleApi& operator=(const SampleApi&) = delete;

@@ -27,7 +27,7 @@ bool cuts(const SeriesFrame& frame, const reconstruct::Cuboid& cuboid) {
 std::string key_of(Query query, const SampleView& view) {
   for (const char* of_one : {"index", "format", "quality", "v", "generation"}) query.erase(of_one);
   std::string key = view.sample.folder.description().created + '\n';
-  for (const auto& [name, value] : query) key += name + '=' + value + '\n';
+  for (const auto& [name, value] : query) key.append(name).append("=").append(value).append("\n");
   return key;
 }
 

@@ -81,12 +81,16 @@ std::uint64_t bytes_on_disk(double pixel_bytes, PictureFormat format) {
                                     (format == PictureFormat::jpeg ? kPartOfJpeg : 1.0));
 }
 
+double bytes_of_colour(const reconstruct::Volume& volume) {
+  return volume.bits() == 16 ? 2.0 : 1.0;
+}
+
 ExportPlan section_plan(const SectionQuery& query, const SampleView& view, std::int64_t max_bytes) {
   const reconstruct::Volume& volume = view.sample.volume;
   reconstruct::SectionRequest request = section_request(query, volume.cuboid());
   request.style.max_bytes = max_bytes;
   const reconstruct::PixelGrid grid = outline_section(volume.cuboid(), volume.bits(), request).grid;
-  const double bytes = static_cast<double>(grid.columns) * grid.rows * 3 * (volume.bits() / 8);
+  const double bytes = static_cast<double>(grid.columns) * grid.rows * 3 * bytes_of_colour(volume);
   return {grid.rows, "rows", bytes_on_disk(bytes, format_of(query.format)),
           section_command(query, view.sample.folder.path())};
 }
@@ -117,7 +121,7 @@ ExportPlan series_plan(const ExportOrder& order, const SampleView& view, std::in
   const double pixel_bytes = width * height * 3 * static_cast<double>(count);
   std::uint64_t bytes = 0;
   if (order.frames) {
-    bytes += bytes_on_disk(pixel_bytes * (volume.bits() / 8), format_of(query.style.format));
+    bytes += bytes_on_disk(pixel_bytes * bytes_of_colour(volume), format_of(query.style.format));
   }
   if (order.movie) bytes += static_cast<std::uint64_t>(kPartOfFilm * pixel_bytes);
   const json rate = order.rate;
