@@ -79,6 +79,7 @@ void view(const ViewOptions& options) {
   const auto folder = reconstruct::SampleFolder::open(options.sample);
   ViewerSettings viewer;
   viewer.journal = JournalReader::Journal::at_rest;
+  viewer.threads = static_cast<int>(std::thread::hardware_concurrency());  // no run to make way for
   const HttpSettings http;
   const Page page(page_assets());
   EventFeed feed;

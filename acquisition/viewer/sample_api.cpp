@@ -75,9 +75,11 @@ void require_method(const ApiRequest& request, std::initializer_list<std::string
 /// Threads that ask for pictures: the server's and the exports'.
 constexpr unsigned kAskingThreads = 3;
 
-int threads_of(const ViewerSettings& settings) {
-  if (settings.threads > 0) return settings.threads;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency() / 2));
+/// Threads that help whoever asks. TBB has one fewer than there are processors.
+int helpers_of(const ViewerSettings& settings) {
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = settings.threads > 0 ? settings.threads : std::max(1, processors / 2);
+  return std::min(threads, processors) - 1;
 }
 
 }  // namespace
@@ -95,7 +97,7 @@ struct SampleApi::State {
   State(std::filesystem::path sample, ViewerSettings chosen)
       : settings(std::move(chosen)),
         live(std::move(sample), settings.cache_bytes),
-        arena(threads_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
+        arena(helpers_of(settings) + static_cast<int>(kAskingThreads), kAskingThreads,
               tbb::task_arena::priority::low),
         series(live),
         records(live, settings.journal),
@@ -176,7 +178,7 @@ struct SampleApi::State {
       return series.frames(request);
     }
     if (first == "series" && rest == std::vector<std::string>{"frame"}) {
-      return picture_of(series.frame_task(request.query), request, arena);
+      return picture_of(series.frame_task(request), request, arena);
     }
     if (first == "sample" && rest.empty()) return sample();
     if (first == "history" && rest.empty()) return records.history(request);

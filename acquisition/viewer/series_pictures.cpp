@@ -6,7 +6,9 @@
 #include "acquisition/viewer/refusal.hpp"
 #include "acquisition/viewer/request_text.hpp"
 #include "acquisition/viewer/series_query.hpp"
+#include "acquisition/viewer/time_allowed.hpp"
 #include "reconstruct/geometry/section_polygon.hpp"
+#include "reconstruct/interruption.hpp"
 #include "reconstruct/section/section_record.hpp"
 
 namespace biotomy::acquisition {
@@ -36,8 +38,9 @@ struct SeriesPictures::Plan {
   std::string pixel;  ///< as the parameter has it, with which all frames fit
 };
 
-std::shared_ptr<const SeriesPictures::Plan> SeriesPictures::plan(const Query& query,
+std::shared_ptr<const SeriesPictures::Plan> SeriesPictures::plan(const ApiRequest& request,
                                                                  const SampleView& view) const {
+  const Query& query = request.query;
   const std::string key = key_of(query, view);
   {
     const std::lock_guard lock(mutex_);
@@ -54,8 +57,12 @@ std::shared_ptr<const SeriesPictures::Plan> SeriesPictures::plan(const Query& qu
   }
   if (asked.style.fit) {
     const reconstruct::SectionStyle style = style_of(asked, cuboid);
+    const reconstruct::StopRequested over = time_allowed(request);
     double least = 0.0;
     for (const SeriesFrame& frame : made->series.frames) {
+      reconstruct::stop_here_if(over,
+                                "the series has too many frames to find out what fits all: "
+                                "make its step larger, or give a pixel");
       if (!cuts(frame, cuboid)) continue;
       const reconstruct::PixelGrid grid =
           outline_of_any_size(view, {frame.plane, frame.basis, style}).grid;
@@ -74,7 +81,9 @@ std::shared_ptr<const SeriesPictures::Plan> SeriesPictures::plan(const Query& qu
 
 ApiResponse SeriesPictures::frames(const ApiRequest& request) const {
   const auto view = live_.look();
-  const auto made = plan(request.query, *view);
+  ApiRequest asked = request;
+  asked.query.erase("fit");  // changes no plane, and takes a look at every frame
+  const auto made = plan(asked, *view);
   ordered_json frames = ordered_json::array();
   for (std::size_t i = 0; i < made->series.frames.size(); ++i) {
     const SeriesFrame& frame = made->series.frames[i];
@@ -91,9 +100,10 @@ ApiResponse SeriesPictures::frames(const ApiRequest& request) const {
           .body = reconstruct::json_text({{"unit", made->series.unit}, {"frames", frames}})};
 }
 
-PictureTask SeriesPictures::frame_task(const Query& query) const {
+PictureTask SeriesPictures::frame_task(const ApiRequest& request) const {
+  const Query& query = request.query;
   std::shared_ptr<const SampleView> view = look_at_layers(live_);
-  const auto made = plan(query, *view);
+  const auto made = plan(request, *view);
   const auto index = query.find("index");
   const auto number = index == query.end()
                           ? std::nullopt
@@ -109,11 +119,11 @@ PictureTask SeriesPictures::frame_task(const Query& query) const {
   const reconstruct::Cuboid& cuboid = view->sample.volume.cuboid();
   const std::filesystem::path& folder = view->sample.folder.path();
   const SeriesFrame& frame = made->series.frames[static_cast<std::size_t>(*number)];
-  const reconstruct::SectionRequest request{frame.plane, frame.basis, style_of(smaller, cuboid)};
+  const reconstruct::SectionRequest section{frame.plane, frame.basis, style_of(smaller, cuboid)};
   PictureTask task{
       .view = nullptr,
-      .request = request,
-      .outline = outline_of_any_size(*view, request),
+      .request = section,
+      .outline = outline_of_any_size(*view, section),
       .full = outline_of_any_size(*view, {frame.plane, frame.basis, style_of(asked, cuboid)}).grid,
       .format = format_of(asked.style.format),
       .quality = reconstruct::parse_quality("quality", asked.style.quality),

@@ -22,12 +22,13 @@ class SeriesPictures {
   ApiResponse frames(const ApiRequest& request) const;
 
   /// The section of one frame. Made to fit, all frames have one pixel size, with which the largest
-  /// fits. Throws likewise, and SampleError where the frame's plane does not cut the sample.
-  PictureTask frame_task(const Query& query) const;
+  /// fits. Throws likewise, SampleError where the frame's plane does not cut the sample, and
+  /// Interrupted when the client has left or it took too long.
+  PictureTask frame_task(const ApiRequest& request) const;
 
  private:
   struct Plan;
-  std::shared_ptr<const Plan> plan(const Query& query, const SampleView& view) const;
+  std::shared_ptr<const Plan> plan(const ApiRequest& request, const SampleView& view) const;
 
   LiveSample& live_;
   mutable std::mutex mutex_;

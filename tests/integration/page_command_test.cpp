@@ -1,15 +1,18 @@
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "acquisition/viewer/sample_api.hpp"
+#include "tests/acquisition/viewer/exports/archive_content.hpp"
 #include "tests/faults/small_sample.hpp"
 #include "tests/integration/child_process.hpp"
 #include "tests/temporary_folder.hpp"
@@ -111,6 +114,28 @@ TEST_F(CommandsOfThePage, MakeTheSeriesThatIsPlayed) {
     }
     EXPECT_EQ(pictures, frames.size());
     fs::remove_all(folder_ / "series");
+  }
+}
+
+TEST_F(CommandsOfThePage, MakeTheFramesThatAreExported) {
+  const acquisition::ApiResponse ordered =
+      api_->answer({.method = "POST",
+                    .path = "/api/v1/exports",
+                    .body = R"({"kind":"series","series":{"kind":"rotate","axis":"y","step":60},)"
+                            R"("parameters":{"theta":"inscribed"}})"});
+  ASSERT_EQ(ordered.status, 202) << ordered.body;
+  const std::string id = json::parse(ordered.body).at("id");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (ask("exports/" + id, {}).body.find(R"("state":"done")") == std::string::npos) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << ask("exports/" + id, {}).body;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  run_in_shell(json::parse(ordered.body).at("command"));
+  const fs::path exports = acquisition::default_exports_folder(sample_);
+  const auto frames = acquisition::archive_content(exports / id / "series.zip");
+  EXPECT_EQ(frames.size(), 4U);
+  for (const auto& [name, content] : frames) {
+    EXPECT_TRUE(content_of(folder_ / "series" / name) == content) << name;
   }
 }
 

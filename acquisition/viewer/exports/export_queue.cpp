@@ -165,7 +165,10 @@ struct ExportQueue::State {
       const auto found = std::find_if(jobs.begin(), jobs.end(), [](const JobPointer& job) {
         return job->record.state == ExportState::queued;
       });
-      if (found != jobs.end()) return *found;
+      if (found != jobs.end()) {
+        (*found)->record.state = ExportState::running;  // from here on only the worker ends it
+        return *found;
+      }
       woken.wait(lock);
     }
   }
@@ -173,10 +176,7 @@ struct ExportQueue::State {
   void work() {
     step_back();
     while (const JobPointer job = next()) {
-      change(*job, [](ExportRecord& record) {
-        if (record.state == ExportState::queued) record.state = ExportState::running;
-        record.sentence = "being made";
-      });
+      change(*job, [](ExportRecord& record) { record.sentence = "being made"; });
       make(*job);
       keep_the_last();
     }

@@ -83,7 +83,7 @@ export function SectionControls({ state, tools }: Props) {
   );
 }
 
-export function showAround(state: ExplorerState, on: boolean): void {
+function showAround(state: ExplorerState, on: boolean): void {
   state.around.value = on;
   state.closeup.value = null;
 }

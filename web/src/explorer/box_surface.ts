@@ -28,7 +28,7 @@ export function crossings(
 }
 
 /** The nearest point of the box: what lies in it stays. */
-export const intoBox = (point: Vector3, far: Vector3): Vector3 => [
+const intoBox = (point: Vector3, far: Vector3): Vector3 => [
   Math.min(far[0], Math.max(0, point[0])),
   Math.min(far[1], Math.max(0, point[1])),
   Math.min(far[2], Math.max(0, point[2])),

@@ -24,9 +24,9 @@ export interface SectionLoaderOptions {
 
 export const rest_ms = 150;
 /** The server answers 50 pictures a second for as long as one likes: this leaves it half. */
-export const betweenStarts_ms = 40;
+const betweenStarts_ms = 40;
 /** An older preview that takes longer than this gives way to a newer one. */
-export const patience_ms = 400;
+const patience_ms = 400;
 
 interface Flight {
   asked: PictureRequest;

@@ -40,7 +40,7 @@ export function wayStep({ way }: SeriesChoice, { plane }: PlacedPlane, cuboid: C
   return readablePixel(step * Math.max(1, Math.ceil((most - least) / step / usualFrames)));
 }
 
-export const axisOf = ({ axis, ownAxis }: SeriesChoice): Vector3 =>
+const axisOf = ({ axis, ownAxis }: SeriesChoice): Vector3 =>
   axis === "own" ? ownAxis : ([0, 1, 2].map((i) => ("xyz"[i] === axis ? 1 : 0)) as never);
 
 /** As `biotomy series` takes it. */

@@ -28,7 +28,7 @@ export function SharpnessTools(props: Props) {
             onChange={(event) => props.onKind(event.currentTarget.value as MapKind)}
           >
             <option value="own">this layer</option>
-            <option value="change">against the layer before</option>
+            <option value="change">against the last</option>
           </select>
           <input
             type="range"
