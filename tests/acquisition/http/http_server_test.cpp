@@ -84,6 +84,18 @@ struct HttpServerTest : testing::Test {
   }
 };
 
+/// Ends a server before what its answers use, which a test declares first.
+class EndsFirst {
+ public:
+  explicit EndsFirst(std::optional<HttpServer>& server) : server_(server) {}
+  ~EndsFirst() { server_.reset(); }
+  EndsFirst(const EndsFirst&) = delete;
+  EndsFirst& operator=(const EndsFirst&) = delete;
+
+ private:
+  std::optional<HttpServer>& server_;
+};
+
 TEST_F(HttpServerTest, AnswersWhateverIsAsked) {
   httplib::Client client("127.0.0.1", start());
   client.set_keep_alive(true);
@@ -150,6 +162,7 @@ TEST_F(HttpServerTest, WritesNoHeaderThatCameFromElsewhere) {
 
 TEST_F(HttpServerTest, RefusesAtOnceWhatALaneHasNoRoomFor) {
   Gate gate;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest& request) {
     if (request.path == "/picture") gate.pass();
     return ApiResponse{};
@@ -174,6 +187,7 @@ TEST_F(HttpServerTest, RefusesAtOnceWhatALaneHasNoRoomFor) {
 TEST_F(HttpServerTest, TellsWorkThatItsClientHasLeft) {
   std::atomic<bool> begun = false;
   std::atomic<bool> noticed = false;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest& request) {
     begun = true;
     wait_until(request.client_left);
@@ -191,6 +205,7 @@ TEST_F(HttpServerTest, TellsWorkThatItsClientHasLeft) {
 TEST_F(HttpServerTest, DoesNoWorkForWhoLeftWhileWaiting) {
   Gate gate;
   std::atomic<int> pictures = 0;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest& request) {
     if (request.path == "/picture") {
       ++pictures;
@@ -254,6 +269,7 @@ TEST_F(HttpServerTest, SendsAPartOfAFile) {
   std::string content(5'000'000, '\0');
   for (std::size_t i = 0; i < content.size(); ++i) content[i] = static_cast<char>(i * i >> 7U);
   std::ofstream(folder.path() / "part", std::ios::binary) << content;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest&) {
     return ApiResponse{.status = 206,
                        .content_type = "application/octet-stream",
@@ -271,6 +287,7 @@ TEST_F(HttpServerTest, SendsAPartOfAFile) {
 
 TEST_F(HttpServerTest, SaysWhenAFileIsGone) {
   const TemporaryFolder folder;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest&) {
     return ApiResponse{.file = FilePart{folder.path() / "none", 0, 10}};
   };
@@ -281,6 +298,7 @@ TEST_F(HttpServerTest, SaysWhenAFileIsGone) {
 TEST_F(HttpServerTest, EndsEarlyWhenAFileBecameShorter) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "short") << "12345";
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest&) {
     return ApiResponse{.file = FilePart{folder.path() / "short", 0, 10}};
   };
@@ -306,6 +324,7 @@ TEST_F(HttpServerTest, EndsAConnectionThatIsIdle) {
 TEST_F(HttpServerTest, DropsWhoDoesNotTakeTheAnswer) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "large") << std::string(50'000'000, 'x');
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest&) {
     return ApiResponse{.file = FilePart{folder.path() / "large", 0, 50'000'000}};
   };
@@ -324,6 +343,7 @@ TEST_F(HttpServerTest, DropsWhoDoesNotTakeTheAnswer) {
 
 TEST_F(HttpServerTest, TellsEventsToFiftyWhileTenDoNotListen) {
   EventFeed feed;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest&) {
     return ApiResponse{.content_type = "text/event-stream", .events = feed.subscribe()};
   };
@@ -374,6 +394,7 @@ TEST_F(HttpServerTest, TellsEventsToFiftyWhileTenDoNotListen) {
 TEST_F(HttpServerTest, EndsWithStreamsOpenAndWorkUnderWay) {
   EventFeed feed;
   std::atomic<bool> begun = false;
+  const EndsFirst ends_first(server);
   application.answers = [&](const ApiRequest& request) {
     if (request.path == "/events") {
       return ApiResponse{.content_type = "text/event-stream", .events = feed.subscribe()};
