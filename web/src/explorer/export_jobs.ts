@@ -22,6 +22,15 @@ const path = "/api/v1/exports";
 const ended = new Set(["done", "failed", "cancelled"]);
 export const hasEnded = (job: ExportJob): boolean => ended.has(job.state);
 
+const stages = { queued: 0, running: 1, done: 2, failed: 2, cancelled: 2 };
+
+/** The one that is further: an answer may come after an event that was sent later. */
+function further(job: ExportJob, known: ExportJob | undefined): ExportJob {
+  if (!known) return job;
+  const stage = stages[job.state] - stages[known.state];
+  return stage > 0 || (stage === 0 && job.done >= known.done) ? job : known;
+}
+
 /** The exports that the server knows of, the newest first, as they go on. */
 export class ExportJobs {
   readonly jobs = signal<ExportJob[]>([]);
@@ -35,7 +44,8 @@ export class ExportJobs {
 
   async learn(): Promise<void> {
     await this.attempt(async () => {
-      this.jobs.value = (await getJson<{ exports: ExportJob[] }>(path)).exports;
+      const { exports } = await getJson<{ exports: ExportJob[] }>(path);
+      this.jobs.value = exports.map((job) => further(job, this.known(job.id)));
     });
   }
 
@@ -52,10 +62,13 @@ export class ExportJobs {
   }
 
   private take(job: ExportJob): void {
-    const known = this.jobs.value.some(({ id }) => id === job.id);
-    this.jobs.value = known
-      ? this.jobs.value.map((old) => (old.id === job.id ? job : old))
+    this.jobs.value = this.known(job.id)
+      ? this.jobs.value.map((old) => (old.id === job.id ? further(job, old) : old))
       : [job, ...this.jobs.value];
+  }
+
+  private known(id: ExportJob["id"]): ExportJob | undefined {
+    return this.jobs.value.find((job) => job.id === id);
   }
 
   private async attempt(work: () => Promise<void>): Promise<void> {

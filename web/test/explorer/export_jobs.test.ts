@@ -1,0 +1,65 @@
+// @vitest-environment happy-dom
+import { afterEach, describe, expect, it, vi } from "vitest";
+
+import { takeEvent } from "../../src/api/live";
+import type { ExportJob } from "../../src/api/types";
+import { ExportJobs } from "../../src/explorer/export_jobs";
+
+const job = (state: ExportJob["state"], done: number): ExportJob => ({
+  id: "a",
+  kind: "section",
+  state,
+  done,
+  total: 9,
+  unit: "rows",
+  seconds_left: null,
+  sentence: "",
+  created_at: "2026-11-22T03:04:05Z",
+  command: "",
+  files: [],
+});
+const tell = (told: ExportJob) => takeEvent({ name: "export", data: JSON.stringify(told), id: "" });
+const order = {
+  kind: "section",
+  format: "png",
+  parameters: {},
+  movie: false,
+  frames: false,
+} as const;
+
+describe("exports", () => {
+  afterEach(() => {
+    vi.unstubAllGlobals();
+  });
+
+  it("do not go back when the answer comes after the events", async () => {
+    const exports = new ExportJobs();
+    const stop = exports.watch();
+    vi.stubGlobal("fetch", async () => {
+      tell(job("running", 4));
+      tell(job("done", 9));
+      return new Response(JSON.stringify(job("queued", 0)), { status: 202 });
+    });
+    await exports.order(order);
+    expect(exports.jobs.value.map(({ state }) => state)).toEqual(["done"]);
+
+    vi.stubGlobal(
+      "fetch",
+      async () => new Response(JSON.stringify({ exports: [job("running", 5)] })),
+    );
+    await exports.learn();
+    expect(exports.jobs.value.map(({ state }) => state)).toEqual(["done"]);
+    stop();
+  });
+
+  it("go on with each event", () => {
+    const exports = new ExportJobs();
+    const stop = exports.watch();
+    tell(job("queued", 0));
+    tell(job("running", 2));
+    expect(exports.jobs.value[0].done).toBe(2);
+    tell(job("cancelled", 2));
+    expect(exports.jobs.value[0].state).toBe("cancelled");
+    stop();
+  });
+});
