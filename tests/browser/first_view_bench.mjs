@@ -1,4 +1,5 @@
 // Prints how long the first view takes on this computer: each time in a tab that knows nothing yet.
+// usage: cmake --build --preset release --target first_view_bench
 import { Tab, launch } from "./browser.mjs";
 import { loadFirstView } from "./first_view.mjs";
 import { Rig } from "./rig.mjs";

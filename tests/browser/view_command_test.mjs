@@ -1,63 +1,26 @@
 // `biotomy view`: the same explorer for an imported sample, without a rig.
 import assert from "node:assert/strict";
-import fs from "node:fs";
-import os from "node:os";
-import path from "node:path";
 import { after, before, test } from "node:test";
-import { PNG } from "pngjs";
 import { Tab, launch } from "./browser.mjs";
+import { checkAnswer, operations } from "./contract.mjs";
 import { drawnByTool, sharpSection } from "./explorer.mjs";
+import { ImportedSample } from "./imported_sample.mjs";
 import { assertSame, pixelsOf } from "./pictures.mjs";
-import { Program, biotomy } from "./programs.mjs";
 
-const size = { x: 120, y: 90, z: 20 };
-
-let folder;
 let view;
 let url;
 let browser;
 let tab;
 
-/** Layers of colours that differ at every voxel. */
-function writeImages(into) {
-  fs.mkdirSync(into);
-  for (let z = 0; z < size.z; ++z) {
-    const image = new PNG({ width: size.x, height: size.y });
-    for (let y = 0; y < size.y; ++y) {
-      for (let x = 0; x < size.x; ++x) {
-        image.data.set([x * 2, y * 2, (z * 12 + x * y) % 256, 255], (y * size.x + x) * 4);
-      }
-    }
-    fs.writeFileSync(path.join(into, `${String(z).padStart(3, "0")}.png`), PNG.sync.write(image));
-  }
-}
-
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "biotomy-browser-"));
-  writeImages(path.join(folder, "images"));
-  const sample = path.join(folder, "a sample's own");
-  const made = biotomy(
-    "import",
-    path.join(folder, "images"),
-    "--spacing",
-    "10,10,20",
-    "-o",
-    sample,
-  );
-  assert.equal(made.status, 0, made.stderr);
-  view = new Program(
-    "biotomy",
-    ["view", sample, "--listen", "127.0.0.1:0", "--no-browser"],
-    folder,
-  );
-  url = `http://${(await view.says("http://")).replace(/[/\s].*$/, "")}`;
+  view = await ImportedSample.show({ x: 120, y: 90, z: 20 }, "a sample's own");
+  url = view.url;
   browser = await launch();
   tab = await Tab.open(browser);
 });
 after(async () => {
   await browser?.close();
-  await view?.end("SIGKILL");
-  if (folder) fs.rmSync(folder, { recursive: true, force: true });
+  await view?.stop();
 });
 
 test("the page begins with the explorer, and has no view of a run", async () => {
@@ -103,6 +66,29 @@ test("there is no rig to command", async () => {
   for (const path of ["/api/v1/status", "/api/v1/control/start", "/metrics"]) {
     const method = path.includes("control") ? "POST" : "GET";
     assert.equal((await fetch(url + path, { method })).status, 404, path);
+  }
+});
+
+test("what it answers is as documented", async () => {
+  const section = "?normal=1,1,2&through=400,300,100";
+  const targets = {
+    getService: "/api/v1/service",
+    getSample: "/api/v1/sample",
+    getLayers: "/api/v1/layers",
+    getLayer: "/api/v1/layers/3",
+    getLayerImage: "/api/v1/layers/3/image",
+    getLayerSharpness: "/api/v1/layers/3/sharpness",
+    getRejected: "/api/v1/rejected",
+    getHistory: "/api/v1/history?metrics=brightness",
+    getSection: `/api/v1/section${section}`,
+    getSectionOutline: `/api/v1/section/outline${section}`,
+    getExports: "/api/v1/exports",
+  };
+  for (const [name, target] of Object.entries(targets)) {
+    const operation = operations.find(({ operationId }) => operationId === name);
+    const response = await fetch(url + target);
+    assert.equal(response.status, 200, target);
+    await checkAnswer(operation, response, target);
   }
 });
 
