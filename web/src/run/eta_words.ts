@@ -34,7 +34,11 @@ function rangeWords(range: [number, number] | null | undefined): string | null {
 /** A moment on the clock on the wall, with the day where it is not today. */
 export function clockWords(moment: number, now: number, locale?: string): string {
   const at = new Date(moment);
-  const clock = at.toLocaleTimeString(locale, { hour: "2-digit", minute: "2-digit" });
+  const clock = at.toLocaleTimeString(locale, {
+    hour: "2-digit",
+    minute: "2-digit",
+    hourCycle: "h23",
+  });
   const days = daysBetween(new Date(now), at);
   if (days === 0) return clock;
   if (days === 1) return `tomorrow, ${clock}`;

@@ -48,7 +48,11 @@ function AlarmSign() {
 function Since({ time }: { time: string }) {
   const at = Date.parse(time);
   if (Number.isNaN(at)) return <>{time}</>;
-  const words = new Date(at).toLocaleString([], { dateStyle: "medium", timeStyle: "medium" });
+  const words = new Date(at).toLocaleString([], {
+    dateStyle: "medium",
+    timeStyle: "medium",
+    hourCycle: "h23",
+  });
   return (
     <>
       <time dateTime={time}>{words}</time>
