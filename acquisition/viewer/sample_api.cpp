@@ -78,8 +78,7 @@ constexpr unsigned kAskingThreads = 3;
 /// Threads that help whoever asks. TBB has one fewer than there are processors.
 int helpers_of(const ViewerSettings& settings) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int threads = settings.threads > 0 ? settings.threads : std::max(1, processors / 2);
-  return std::min(threads, processors) - 1;
+  return std::clamp(settings.threads, 1, processors) - 1;
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ namespace biotomy::acquisition {
 struct ViewerSettings {
   std::size_t cache_bytes = 256'000'000;    ///< of decoded chunks, at most
   std::size_t decoded_bytes = 160'000'000;  ///< of decoded layers, at most, or one layer
-  int threads = 0;                          ///< that sample one section; 0: half of the processors
+  /// That sample one section. 1: it is sampled by the thread that asks, with that thread's
+  /// priority; others that help have the priority of the process.
+  int threads = 1;
   /// Whether somebody may write the sample's journal meanwhile.
   JournalReader::Journal journal = JournalReader::Journal::in_use;
   std::filesystem::path exports = {};  ///< where they lie; empty: SAMPLE-exports, beside the sample

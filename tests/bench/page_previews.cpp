@@ -2,7 +2,7 @@
 // without a network: JPEGs that fit a window, of a plane that is turned and moved a little each
 // time. Prints one line of JSON.
 //
-//   page_previews SAMPLE [--fit 1024x768] [--steps 60] [--threads 0]
+//   page_previews SAMPLE [--fit 1024x768] [--steps 60] [--threads 1]
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +27,7 @@ struct Options {
   std::string sample;
   std::string fit = "1024x768";
   int steps = 60;
-  int threads = 0;
+  int threads = 1;
 };
 
 /// Through the block's middle, leaning more with each step, and moved to and fro.
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
   app.add_option("--steps", options.steps, "How often the plane is moved")
       ->check(CLI::Range(2, 10000))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "That sample; 0: half of the processors")
+  app.add_option("--threads", options.threads, "That sample a section")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

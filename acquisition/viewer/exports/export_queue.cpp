@@ -47,8 +47,8 @@ constexpr milliseconds kBetweenProgress{250};
 constexpr milliseconds kBetweenLooksAtDisk{1000};
 constexpr double kLeastSecondsToJudgeBy = 0.5;
 
-/// Less of the processor and of the disk than everybody else gets. (Threads inherit neither from
-/// each other in the arena, whose number is bounded instead.)
+/// Less of the processor and of the disk than everybody else gets. (TBB's threads that help, where
+/// there are any, do not inherit it.)
 void step_back() {
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
   ::setpriority(PRIO_PROCESS, thread, kNice);
