@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -45,7 +46,7 @@ BasisKind basis_kind(const std::string& name) {
   if (name == "xz") {
     return BasisKind::xz;
   }
-  throw InvalidRequest("no basis is called '" + name + "': there are layer and xz");
+  throw InvalidRequest("no basis is called '" + excerpt(name) + "': there are layer and xz");
 }
 
 SectionBasis section_basis(BasisKind kind, const Plane& plane) {

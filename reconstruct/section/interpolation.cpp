@@ -1,6 +1,7 @@
 #include "reconstruct/section/interpolation.hpp"
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -14,7 +15,7 @@ Interpolation interpolation(const std::string& name) {
   if (name == "cubic") {
     return Interpolation::cubic;
   }
-  throw InvalidRequest("no interpolation is called '" + name +
+  throw InvalidRequest("no interpolation is called '" + excerpt(name) +
                        "': there are nearest, linear and cubic");
 }
 
