@@ -24,6 +24,7 @@
 #include "acquisition/viewer/series_pictures.hpp"
 #include "acquisition/viewer/volume_files.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 #include "reconstruct/interruption.hpp"
 
 namespace biotomy::acquisition {
@@ -69,7 +70,7 @@ void require_method(const ApiRequest& request, std::initializer_list<std::string
 }
 
 [[noreturn]] void refuse_path(const std::string& path) {
-  throw Refusal(404, "there is no " + path);
+  throw Refusal(404, "there is no " + reconstruct::excerpt(path));
 }
 
 /// Threads that ask for pictures: the server's and the exports'.
@@ -116,7 +117,9 @@ struct SampleApi::State {
   ApiResponse layers(const std::vector<std::string>& words, const ApiRequest& request) const {
     if (words.empty()) return records.list(request);
     const auto layer = whole_number(words[0], 1, kLargestLayer);
-    if (!layer) throw Refusal(404, "'" + words[0] + "' is no layer: they are numbered from 1");
+    if (!layer)
+      throw Refusal(
+          404, "'" + reconstruct::excerpt(words[0]) + "' is no layer: they are numbered from 1");
     if (words.size() == 1) return records.layer(*layer);
     if (words.size() == 2 && words[1] == "image") return images.image(*layer, request);
     if (words.size() == 2 && words[1] == "sharpness") return images.sharpness(*layer, request);

@@ -113,7 +113,7 @@ ThetaChoice parse_custom(const std::string& name, const std::string& text,
                                                    "custom"};
   const std::string_view nearest = nearest_word(word, kWords);
   const std::string question = nearest.empty() ? "" : "did you mean " + std::string(nearest) + "? ";
-  throw InvalidRequest(name + " '" + text + "': " + question +
+  throw InvalidRequest(name + " '" + excerpt(text) + "': " + question +
                        "give bounding, inscribed, inscribed-any, edge:I or "
                        "custom:X,Y,Z,W,H,ANGLE");
 }
