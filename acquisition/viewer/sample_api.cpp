@@ -117,9 +117,10 @@ struct SampleApi::State {
   ApiResponse layers(const std::vector<std::string>& words, const ApiRequest& request) const {
     if (words.empty()) return records.list(request);
     const auto layer = whole_number(words[0], 1, kLargestLayer);
-    if (!layer)
+    if (!layer) {
       throw Refusal(
           404, "'" + reconstruct::excerpt(words[0]) + "' is no layer: they are numbered from 1");
+    }
     if (words.size() == 1) return records.layer(*layer);
     if (words.size() == 2 && words[1] == "image") return images.image(*layer, request);
     if (words.size() == 2 && words[1] == "sharpness") return images.sharpness(*layer, request);
