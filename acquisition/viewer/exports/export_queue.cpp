@@ -108,6 +108,7 @@ struct ExportQueue::State {
   ExportFolder folder;
   std::int64_t max_bytes = most_picture_bytes();
   mutable std::mutex mutex;
+  std::mutex telling;  // taken before `mutex`: changes are told in the order in which they are made
   std::condition_variable woken;
   bool ending = false;
   std::function<void(std::string)> listener;
@@ -136,7 +137,7 @@ struct ExportQueue::State {
     return *found;
   }
 
-  /// Without the lock: whoever listens may ask back.
+  /// Without the lock: whoever listens may look at the exports.
   void tell(const std::string& json) {
     std::function<void(std::string)> told;
     {
@@ -149,6 +150,7 @@ struct ExportQueue::State {
   /// Changes a job's record and tells of it.
   template <typename Change>
   void change(Job& job, Change what) {
+    const std::lock_guard in_order(telling);
     std::string json;
     {
       const std::lock_guard lock(mutex);
@@ -316,6 +318,7 @@ ApiResponse ExportQueue::add(const ApiRequest& request) {
   }
   ApiResponse response{.status = 202, .body = json_text(to_json(job->record))};
   response.headers["Location"] = "/api/v1/exports/" + job->record.id;
+  const std::lock_guard in_order(state_->telling);
   {
     const std::lock_guard lock(state_->mutex);
     const auto waiting = std::count_if(
@@ -347,6 +350,7 @@ ApiResponse ExportQueue::one(const std::string& id) const {
 }
 
 ApiResponse ExportQueue::remove(const std::string& id) {
+  const std::lock_guard in_order(state_->telling);
   std::string json;
   ExportRecord removed;
   {
