@@ -70,7 +70,11 @@ class Gate {
 };
 
 void wait_until(const std::function<bool()>& done) {
-  while (!done()) std::this_thread::sleep_for(milliseconds(1));
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!done()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "it did not come to that";
+    std::this_thread::sleep_for(milliseconds(1));
+  }
 }
 
 struct HttpServerTest : testing::Test {

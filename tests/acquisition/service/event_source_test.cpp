@@ -16,14 +16,17 @@ using namespace acquisition;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Reads on until an event with `part` comes.
+/// Reads on until an event with `part` comes; empty when none does within half a minute.
 std::string next_with(EventSubscription& listener, const std::string& part) {
-  while (true) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (std::chrono::steady_clock::now() < deadline) {
     for (const EventText& text : listener.take()) {
       if (text->find(part) != std::string::npos) return *text;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  ADD_FAILURE() << "no event with " << part;
+  return {};
 }
 
 TEST(EventSource, TellsWhatHasChanged) {
