@@ -1,6 +1,7 @@
 #include "acquisition/http/http_server.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <fstream>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "acquisition/service/event_source.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include <gmock/gmock.h>
