@@ -147,7 +147,8 @@ TEST_F(Disturbance, ByTheDoorStopsEveryState) {
       state = stopped.at("alarm").at("state");
       wires.pull(RigWires::door, false);
     }
-    std::cout << "door opened while " << state << std::endl;
+    std::cout << "door opened while " << state << ", after " << enough - 1 << " layers"
+              << std::endl;
     left.erase(state);
     at_work.get();
     // The first states of a job that goes on are over before the operator has seen it go.

@@ -2,10 +2,10 @@
 
 #include <csignal>
 #include <fstream>
-#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
+#include "tests/faults/status_watch.hpp"
 #include "tests/kernel/video_devices.hpp"
 
 namespace biotomy::tests {
@@ -102,10 +102,7 @@ Outcome KernelRig::rig(const std::string& command) {
 }
 
 nlohmann::json KernelRig::status() {
-  const Outcome outcome =
-      run({BIOTOMY_TOOL, "rig", "status", "--json", "--url", url_}, sockets_.path());
-  if (outcome.exit_code != 0) throw std::runtime_error(outcome.errors);
-  return nlohmann::json::parse(outcome.output);
+  return StatusWatch(url_).look();
 }
 
 }  // namespace biotomy::tests
