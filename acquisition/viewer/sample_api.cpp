@@ -205,8 +205,9 @@ bool SampleApi::answers(const ApiRequest& request) const {
 Lane SampleApi::lane(const ApiRequest& request) {
   const std::vector<std::string> words = words_of(request.path);
   if (words.empty()) return Lane::files;
-  const bool draws =
-      (words[0] == "section" && words.size() == 1) || (words[0] == "layers" && words.size() > 2);
+  const bool draws = (words[0] == "section" && words.size() == 1) ||
+                     (words[0] == "series" && words.back() == "frame") ||
+                     (words[0] == "layers" && words.size() > 2);
   if (draws) return Lane::pictures;
   const bool sends =
       (words[0] == "rejected" && words.size() > 1) || (words[0] == "exports" && words.size() > 2);
