@@ -47,8 +47,7 @@ constexpr milliseconds kBetweenProgress{250};
 constexpr milliseconds kBetweenLooksAtDisk{1000};
 constexpr double kLeastSecondsToJudgeBy = 0.5;
 
-/// Less of the processor and of the disk than everybody else gets. (TBB's threads that help, where
-/// there are any, do not inherit it.)
+/// Less of the processor and of the disk than everybody else gets.
 void step_back() {
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
   ::setpriority(PRIO_PROCESS, thread, kNice);
