@@ -230,7 +230,8 @@ ApiResponse SampleApi::answer(const ApiRequest& request) const {
   } catch (const reconstruct::InvalidRequest& error) {
     return error_response(400, error.what());
   } catch (const reconstruct::Interrupted& error) {
-    return error_response(503, error.what());
+    // Too much for one answer. Not 503: who waits would ask for the same again and again.
+    return error_response(413, error.what());
   } catch (const reconstruct::SampleError& error) {
     return error_response(422, error.what());
   } catch (const JournalError& error) {

@@ -150,7 +150,7 @@ TEST_F(SectionPicturesOfASample, EndWhenNobodyWaits) {
                                             .path = kSection,
                                             .query = {{"normal", "0,0,1"}, {"through", "0,0,0"}},
                                             .client_left = [] { return true; }});
-  EXPECT_EQ(response.status, 503);
+  EXPECT_EQ(response.status, 413) << "not one after which pages ask again";
 }
 
 TEST_F(SectionPicturesOfASample, SayWhereAChunkIsDamaged) {
