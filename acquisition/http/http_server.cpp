@@ -35,7 +35,7 @@ using std::chrono::steady_clock;
 
 constexpr int kPicturesNice = 10;
 constexpr int kPicturesAtOnce = 3;  // times those of a second
-constexpr const char* kRetrySeconds = "1";
+constexpr std::chrono::seconds kRetry{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};  // after the system had no room
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\n"
@@ -91,12 +91,6 @@ std::string text_of(const asio::ip::address& address) {
     return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
   }
   return address.to_string();
-}
-
-ApiResponse try_again(int status, const std::string& sentence) {
-  ApiResponse response = error_response(status, sentence);
-  response.headers["Retry-After"] = kRetrySeconds;
-  return response;
 }
 
 /// Opens the file of a response, in the thread that answers.
@@ -169,7 +163,8 @@ class HttpServer::Listening : public ConnectionHost {
     const Lane kind = application_.lane(request);
     if (kind == Lane::pictures) {
       if (pictures_of_clients_.take(request.client, steady_clock::now())) {
-        return try_again(429, "too many pictures are asked from this address: ask a little later");
+        return later_response(
+            429, "too many pictures are asked from this address: ask a little later", kRetry);
       }
     }
     const auto asked = std::make_shared<ApiRequest>(std::move(request));
@@ -182,7 +177,8 @@ class HttpServer::Listening : public ConnectionHost {
              },
          .is_useless = asked->client_left});
     if (taken) return std::nullopt;
-    return try_again(503, "too much is asked of this computer at once: ask a little later");
+    return later_response(503, "too much is asked of this computer at once: ask a little later",
+                          kRetry);
   }
 
   void read_file(int file, std::uint64_t offset, std::size_t bytes,

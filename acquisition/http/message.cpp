@@ -11,4 +11,10 @@ ApiResponse error_response(int status, const std::string& message) {
           .body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
+ApiResponse later_response(int status, const std::string& message, std::chrono::seconds after) {
+  ApiResponse response = error_response(status, message);
+  response.headers["Retry-After"] = std::to_string(after.count());
+  return response;
+}
+
 }  // namespace biotomy::acquisition

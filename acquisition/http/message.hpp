@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -59,5 +60,8 @@ enum class Lane {
 
 /// {"error": {"code": …, "message": …}}
 ApiResponse error_response(int status, const std::string& message);
+
+/// The same of what may be asked again after a while, with the header Retry-After.
+ApiResponse later_response(int status, const std::string& message, std::chrono::seconds after);
 
 }  // namespace biotomy::acquisition

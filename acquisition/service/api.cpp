@@ -37,11 +37,11 @@ std::optional<std::string> reason_of(const std::string& body) {
 }
 
 ApiResponse refusal(const Ruling& ruling) {
+  if (ruling.status == 429) {
+    return later_response(ruling.status, ruling.sentence, ruling.retry_after);
+  }
   ApiResponse response = error_response(ruling.status, ruling.sentence);
   if (ruling.status == 401) response.headers["WWW-Authenticate"] = "Bearer";
-  if (ruling.status == 429) {
-    response.headers["Retry-After"] = std::to_string(ruling.retry_after.count());
-  }
   return response;
 }
 

@@ -45,6 +45,7 @@ constexpr std::int64_t kMostPictureBytes = 2'000'000'000;  // as of the commands
 constexpr int kNice = 10;
 constexpr milliseconds kBetweenProgress{250};
 constexpr milliseconds kBetweenLooksAtDisk{1000};
+constexpr std::chrono::seconds kLikelyWait{10};  // until one of those that wait is begun
 constexpr double kLeastSecondsToJudgeBy = 0.5;
 
 /// Less of the processor and of the disk than everybody else gets.
@@ -324,8 +325,10 @@ ApiResponse ExportQueue::add(const ApiRequest& request) {
         state_->jobs.begin(), state_->jobs.end(),
         [](const JobPointer& other) { return other->record.state == ExportState::queued; });
     if (static_cast<std::size_t>(waiting) >= kMostWaiting) {
-      throw Refusal(429, std::to_string(kMostWaiting) +
-                             " exports wait already: ask again when one of them is done");
+      return later_response(429,
+                            std::to_string(kMostWaiting) +
+                                " exports wait already: ask again when one of them is done",
+                            kLikelyWait);
     }
     state_->jobs.push_back(job);
   }

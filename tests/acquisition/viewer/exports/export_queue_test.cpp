@@ -173,6 +173,7 @@ TEST_F(ExportsOfASample, WaitForEachOtherUpToANumber) {
   const ApiResponse refused = ask("POST", "", kSection);
   EXPECT_EQ(refused.status, 429);
   EXPECT_THAT(sentence_of(refused), HasSubstr("8 exports wait already"));
+  EXPECT_EQ(refused.headers.at("Retry-After"), "10");
   EXPECT_EQ(json_of(ask("GET", "")).at("exports").size(), 9U);
   EXPECT_EQ(json_of(ask("GET", "")).at("exports").at(8).at("id"), first) << "the newest first";
   ask("DELETE", "/" + waiting[0]);
