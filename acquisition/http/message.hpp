@@ -20,6 +20,7 @@ struct ApiRequest {
   std::string origin = {};
   std::string range = {};
   std::string if_none_match = {};
+  std::string if_range = {};
   std::string accept_encoding = {};
   std::string body = {};
   std::string client = {};  ///< the address that it came from
