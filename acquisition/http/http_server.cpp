@@ -93,6 +93,15 @@ std::string text_of(const asio::ip::address& address) {
   return address.to_string();
 }
 
+ApiResponse answer_of(const HttpApplication& application, const ApiRequest& request) {
+  try {
+    return application.answer(request);
+  } catch (const std::exception& error) {
+    log_error("http", request.path + ": " + error.what());
+    return error_response(500, error.what());
+  }
+}
+
 /// Opens the file of a response, in the thread that answers.
 PreparedResponse prepared(ApiResponse response) {
   PreparedResponse ready{.response = std::move(response), .file = {}};
@@ -172,7 +181,7 @@ class HttpServer::Listening : public ConnectionHost {
         {.run =
              [this, asked, answered = std::move(answered)] {
                auto ready =
-                   std::make_shared<PreparedResponse>(prepared(application_.answer(*asked)));
+                   std::make_shared<PreparedResponse>(prepared(answer_of(application_, *asked)));
                asio::post(context_, [ready, answered] { answered(std::move(*ready)); });
              },
          .is_useless = asked->client_left});

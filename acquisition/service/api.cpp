@@ -67,15 +67,6 @@ Lane Api::lane(const ApiRequest& request) const {
 }
 
 ApiResponse Api::answer(const ApiRequest& request) const {
-  try {
-    return route(request);
-  } catch (const std::exception& error) {
-    log_error("http", request.path + ": " + error.what());
-    return error_response(500, error.what());
-  }
-}
-
-ApiResponse Api::route(const ApiRequest& request) const {
   if (request.path.starts_with(kControl)) {
     return control(request.path.substr(kControl.size()), request);
   }

@@ -155,6 +155,18 @@ TEST_F(HttpServerTest, TellsAClientThatWaitsToSendItsBody) {
   EXPECT_THAT(client.read_until("body"), StartsWith("HTTP/1.1 200 "));
 }
 
+TEST_F(HttpServerTest, GoesOnAfterAnAnswerThatFailed) {
+  application.answers = [](const ApiRequest& request) -> ApiResponse {
+    if (request.path == "/fails") throw std::runtime_error("the disk is away");
+    return {};
+  };
+  httplib::Client client("127.0.0.1", start());
+  const auto failed = client.Get("/fails");
+  EXPECT_EQ(failed->status, 500);
+  EXPECT_THAT(failed->body, HasSubstr("the disk is away"));
+  EXPECT_EQ(client.Get("/")->status, 200);
+}
+
 TEST_F(HttpServerTest, WritesNoHeaderThatCameFromElsewhere) {
   application.answers = [](const ApiRequest&) {
     return ApiResponse{.headers = {{"Biotomy-Section", "a\r\nSet-Cookie: b"}}};
