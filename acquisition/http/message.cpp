@@ -17,4 +17,16 @@ ApiResponse later_response(int status, const std::string& message, std::chrono::
   return response;
 }
 
+ApiResponse wrong_method(const ApiRequest& request, const std::string& allowed) {
+  ApiResponse response =
+      error_response(405, request.path + " takes " + allowed + ", not " + request.method);
+  response.headers["Allow"] = allowed;
+  return response;
+}
+
+bool has_already(const ApiRequest& request, const std::string& etag) {
+  const std::string& known = request.if_none_match;
+  return known == "*" || known.find(etag) != std::string::npos;
+}
+
 }  // namespace biotomy::acquisition

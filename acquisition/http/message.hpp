@@ -65,4 +65,10 @@ ApiResponse error_response(int status, const std::string& message);
 /// The same of what may be asked again after a while, with the header Retry-After.
 ApiResponse later_response(int status, const std::string& message, std::chrono::seconds after);
 
+/// 405: the method is none of `allowed`, "GET, POST".
+ApiResponse wrong_method(const ApiRequest& request, const std::string& allowed);
+
+/// Whether the client has exactly this content already, so that 304 is its answer.
+bool has_already(const ApiRequest& request, const std::string& etag);
+
 }  // namespace biotomy::acquisition
