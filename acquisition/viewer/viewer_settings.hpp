@@ -9,6 +9,9 @@
 
 namespace biotomy::acquisition {
 
+/// Of a disk on which nothing but exports needs room.
+inline constexpr std::uint64_t kLeftFree = std::uint64_t{1} << 30U;
+
 /// How much of the computer looking at a sample may take, and who may.
 struct ViewerSettings {
   std::size_t cache_bytes = 256'000'000;    ///< of decoded chunks, at most
