@@ -33,6 +33,9 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::steady_clock;
 
+// A history of ten thousand layers is a quick look that costs as much as a picture: nobody who asks
+// for it again and again takes the processor from the run.
+constexpr int kNice = 5;
 constexpr int kPicturesNice = 10;
 constexpr int kPicturesAtOnce = 3;  // times those of a second
 constexpr std::chrono::seconds kRetry{1};
@@ -140,8 +143,8 @@ class HttpServer::Listening : public ConnectionHost {
                              std::chrono::milliseconds(1000) / limits_.pictures_per_second),
         acceptor_(listening_at(context_, host, port)),
         accept_timer_(context_),
-        quick_("http-quick", limits_.quick.threads, limits_.quick.most_waiting, 0),
-        files_("http-files", limits_.files.threads, limits_.files.most_waiting, 0),
+        quick_("http-quick", limits_.quick.threads, limits_.quick.most_waiting, kNice),
+        files_("http-files", limits_.files.threads, limits_.files.most_waiting, kNice),
         pictures_("http-pictures", limits_.pictures.threads, limits_.pictures.most_waiting,
                   kPicturesNice) {
     accept();

@@ -13,6 +13,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "acquisition/http/event_feed.hpp"
 #include "tests/acquisition/http/raw_client.hpp"
@@ -153,6 +155,16 @@ TEST_F(HttpServerTest, TellsAClientThatWaitsToSendItsBody) {
   EXPECT_EQ(client.read_until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
   client.send("body");
   EXPECT_THAT(client.read_until("body"), StartsWith("HTTP/1.1 200 "));
+}
+
+TEST_F(HttpServerTest, AnswersWithLessPriorityThanTheRunAndDrawsWithLessStill) {
+  const auto priority = [] { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); };
+  application.answers = [&](const ApiRequest&) {
+    return ApiResponse{.body = std::to_string(priority())};
+  };
+  httplib::Client client("127.0.0.1", start());
+  EXPECT_EQ(client.Get("/quick")->body, std::to_string(std::min(priority() + 5, 19)));
+  EXPECT_EQ(client.Get("/picture")->body, std::to_string(std::min(priority() + 10, 19)));
 }
 
 TEST_F(HttpServerTest, GoesOnAfterAnAnswerThatFailed) {
