@@ -44,10 +44,10 @@ constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\n"
     "Connection: close\r\n\r\n";
 
-std::string cannot_listen_text(const std::string& host, int port) {
-  return "cannot listen on " + host + ":" + std::to_string(port) +
-         ": another program has the port, or the address is not this computer's; see "
-         "service.listen";
+std::string cannot_listen_text(const std::string& host, int port, const error_code& why) {
+  return "cannot listen on " + host + ":" + std::to_string(port) + ", \"" + why.message() +
+         "\": perhaps another program has the port, or the address is not this computer's; choose "
+         "another";
 }
 
 /// Programs that the daemon starts must not hold its connections open.
@@ -83,10 +83,11 @@ tcp::acceptor listening_at(asio::io_context& context, const std::string& host, i
   if (!error) {
     for (const auto& entry : addresses) {
       tcp::acceptor acceptor(context);
-      if (!open_at(acceptor, entry.endpoint())) return acceptor;
+      error = open_at(acceptor, entry.endpoint());
+      if (!error) return acceptor;
     }
   }
-  throw ListenError(cannot_listen_text(host, port));
+  throw ListenError(cannot_listen_text(host, port, error));
 }
 
 std::string text_of(const asio::ip::address& address) {
@@ -243,12 +244,16 @@ class HttpServer::Listening : public ConnectionHost {
       if (ending_) return;
       if (error) {
         // There are too many open files, for one: the next moment may be better.
+        if (!std::exchange(no_room_, true)) {
+          log_warning("http", "cannot take a connection, and tries on: " + error.message());
+        }
         accept_timer_.expires_after(kAcceptPause);
         accept_timer_.async_wait([this](const error_code& cancelled) {
           if (!cancelled) accept();
         });
         return;
       }
+      no_room_ = false;
       welcome(std::move(socket));
       accept();
     });
@@ -283,6 +288,7 @@ class HttpServer::Listening : public ConnectionHost {
   asio::executor_work_guard<asio::io_context::executor_type> keep_running_{context_.get_executor()};
   // Only the server's own thread touches these, until it has ended.
   bool ending_ = false;
+  bool no_room_ = false;  ///< for the last connection; it is logged
   RateLimit pictures_of_clients_;
   tcp::acceptor acceptor_;
   asio::steady_timer accept_timer_;
