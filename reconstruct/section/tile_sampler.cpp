@@ -47,7 +47,10 @@ class PartedPairs {
   std::size_t place(unsigned number) const {
     return std::size_t{number / in_a_band_} * 2 * down_ + number % in_a_band_ * 2 * kPair;
   }
-  std::size_t bytes(unsigned count) const { return place(count) + down_ + kVectorBytes; }
+  /// Room for so many pixels' pairs, and for a vector that begins with the last of them.
+  std::size_t bytes(unsigned count) const {
+    return count == 0 ? 0 : place(count - 1) + down_ + kPair + kVectorBytes;
+  }
 
  private:
   std::size_t down_;
