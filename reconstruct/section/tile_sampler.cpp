@@ -171,29 +171,39 @@ void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
 template <typename Level>
 void TileSampler<Level>::place_parted(const TilePlan& plan, const RowPath& path,
                                       const BrickRun& run, RowPlaces& places) const {
-  const auto& [x, y, z] = run.bricks;
+  const TexelBlocks& blocks = plan.blocks();
+  const auto along = [&](std::size_t axis, int pixel) {
+    const TexelPair texels = texel_pair(path.axes[axis], run.bricks[axis], pixel);
+    return AxisPlaces{{blocks.along(axis, texels.near), blocks.along(axis, texels.far)},
+                      PixelPlaces<Level>::part(texels.part)};
+  };
+  std::array<std::array<int, 2>, 3> slots{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const BrickPair& bricks = run.bricks[axis];
+    const int stride = path.axes[axis].slot_stride;
+    slots[axis] = {bricks.near * stride, bricks.far * stride};
+  }
   PartedTexels bricks{};
   for (std::size_t corner = 0; corner < bricks.size(); ++corner) {
     bricks[corner] = bricks_[static_cast<std::size_t>(
-        path.slot(corner % 2 == 0 ? x.near : x.far, corner / 2 % 2 == 0 ? y.near : y.far,
-                  corner / 4 == 0 ? z.near : z.far))];
+        slots[0][corner % 2] + slots[1][corner / 2 % 2] + slots[2][corner / 4])];
   }
-  const TexelBlocks& blocks = plan.blocks();
   PixelPlaces<Level>& pairs = places.pairs;
   const PartedPairs<Level> gathered(pairs);
+  const bool stays_in_a_layer = path.axes[2].step == 0;
+  AxisPlaces z = along(2, run.first);
   for (int pixel = run.first; pixel < run.last; ++pixel) {
-    const TexelPair along_x = texel_pair(path.axes[0], x, pixel);
-    const TexelPair along_y = texel_pair(path.axes[1], y, pixel);
-    const TexelPair along_z = texel_pair(path.axes[2], z, pixel);
-    const std::array<int, 2> columns{blocks.along_x(along_x.near), blocks.along_x(along_x.far)};
-    const std::array<int, 2> rows{blocks.along_y(along_y.near), blocks.along_y(along_y.far)};
-    const std::array<int, 2> layers{blocks.along_z(along_z.near), blocks.along_z(along_z.far)};
+    const AxisPlaces x = along(0, pixel);
+    const AxisPlaces y = along(1, pixel);
+    if (!stays_in_a_layer) {
+      z = along(2, pixel);
+    }
     const std::byte* const upper =
         places.parted_pairs.data() + gathered.place(static_cast<unsigned>(places.parted.size()));
     PartedTexels& texels = places.parted.emplace_back();
     for (std::size_t corner = 0; corner < texels.size(); ++corner) {
-      texels[corner] =
-          bricks[corner] + (columns[corner % 2] + rows[corner / 2 % 2] + layers[corner / 4]);
+      texels[corner] = bricks[corner] +
+                       (x.offsets[corner % 2] + y.offsets[corner / 2 % 2] + z.offsets[corner / 4]);
       __builtin_prefetch(texels[corner]);
     }
     const auto i = static_cast<std::size_t>(pixel);
@@ -201,9 +211,9 @@ void TileSampler<Level>::place_parted(const TilePlan& plan, const RowPath& path,
       pairs.upper[row][i] = upper + row * gathered.kPair;
       pairs.lower[row][i] = pairs.upper[row][i] + gathered.down();
     }
-    pairs.x[i] = PixelPlaces<Level>::part(along_x.part);
-    pairs.y[i] = PixelPlaces<Level>::part(along_y.part);
-    pairs.z[i] = PixelPlaces<Level>::part(along_z.part);
+    pairs.x[i] = x.part;
+    pairs.y[i] = y.part;
+    pairs.z[i] = z.part;
   }
 }
 

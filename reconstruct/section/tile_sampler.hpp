@@ -31,6 +31,12 @@ class TileSampler {
   /// The texels of a parted pixel's support, x fastest, then y, then z.
   using PartedTexels = std::array<const std::byte*, 8>;
 
+  /// What one axis contributes to the places of a parted pixel's texels, and to their mixing.
+  struct AxisPlaces {
+    std::array<int, 2> offsets;  // of the near and the far texel in their bricks
+    typename PixelPlaces<Level>::Part part;
+  };
+
   /// Where a row's pixels lie.
   struct RowPlaces {
     PixelPlaces<Level> pairs;
