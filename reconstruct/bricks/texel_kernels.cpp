@@ -14,6 +14,7 @@
 #include "reconstruct/bricks/linear_kernel-inl.hpp"
 #include "reconstruct/bricks/pack_kernel-inl.hpp"
 #include "reconstruct/bricks/place_kernel-inl.hpp"
+#include "reconstruct/bricks/straight_kernel-inl.hpp"
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -32,6 +33,10 @@ void mix_linear_8(const PixelPlaces<std::uint8_t>& places, std::size_t count,
                   std::uint8_t* pixels) {
   kernels::mix_linear(places, count, pixels);
 }
+void mix_straight_8(const StraightRun& run, const StraightParts<std::uint8_t>& parts,
+                    std::uint8_t* rgb) {
+  kernels::mix_straight(run, parts, rgb);
+}
 void mix_cubic_8(const std::uint8_t* texels, const std::array<float, 3>& part,
                  std::uint8_t* pixel) {
   kernels::mix_cubic(texels, part, pixel);
@@ -46,6 +51,10 @@ void place_runs_16(const RowPath& path, std::span<const BrickRun> runs,
 void mix_linear_16(const PixelPlaces<std::uint16_t>& places, std::size_t count,
                    std::uint16_t* pixels) {
   kernels::mix_linear(places, count, pixels);
+}
+void mix_straight_16(const StraightRun& run, const StraightParts<std::uint16_t>& parts,
+                     std::uint16_t* rgb) {
+  kernels::mix_straight(run, parts, rgb);
 }
 void mix_cubic_16(const std::uint16_t* texels, const std::array<float, 3>& part,
                   std::uint16_t* pixel) {
@@ -63,10 +72,12 @@ namespace biotomy::reconstruct {
 
 HWY_EXPORT(place_runs_8);
 HWY_EXPORT(mix_linear_8);
+HWY_EXPORT(mix_straight_8);
 HWY_EXPORT(mix_cubic_8);
 HWY_EXPORT(pack_pixels_8);
 HWY_EXPORT(place_runs_16);
 HWY_EXPORT(mix_linear_16);
+HWY_EXPORT(mix_straight_16);
 HWY_EXPORT(mix_cubic_16);
 HWY_EXPORT(pack_pixels_16);
 
@@ -78,6 +89,11 @@ void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::
 template <>
 void mix_linear(const PixelPlaces<std::uint8_t>& places, std::size_t count, std::uint8_t* pixels) {
   HWY_DYNAMIC_DISPATCH(mix_linear_8)(places, count, pixels);
+}
+template <>
+void mix_straight(const StraightRun& run, const StraightParts<std::uint8_t>& parts,
+                  std::uint8_t* rgb) {
+  HWY_DYNAMIC_DISPATCH(mix_straight_8)(run, parts, rgb);
 }
 template <>
 void mix_cubic(const std::uint8_t* texels, const std::array<float, 3>& part, std::uint8_t* pixel) {
@@ -96,6 +112,11 @@ template <>
 void mix_linear(const PixelPlaces<std::uint16_t>& places, std::size_t count,
                 std::uint16_t* pixels) {
   HWY_DYNAMIC_DISPATCH(mix_linear_16)(places, count, pixels);
+}
+template <>
+void mix_straight(const StraightRun& run, const StraightParts<std::uint16_t>& parts,
+                  std::uint16_t* rgb) {
+  HWY_DYNAMIC_DISPATCH(mix_straight_16)(run, parts, rgb);
 }
 template <>
 void mix_cubic(const std::uint16_t* texels, const std::array<float, 3>& part,

@@ -122,6 +122,28 @@ void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::
 template <typename Level>
 void mix_linear(const PixelPlaces<Level>& places, std::size_t count, Level* pixels);
 
+/// Pixels of a row that runs along x from voxel to voxel: their texels stand side by side in one
+/// brick, and are mixed only with those of other rows.
+struct StraightRun {
+  /// Texel 0 of the brick's row of the whole part of y, and of the next row: in the layer of the
+  /// whole part of z, and in the next layer.
+  std::array<const std::byte*, 2> upper{};
+  std::array<const std::byte*, 2> lower{};
+  std::size_t first = 0;  ///< texel
+  std::size_t count = 0;
+};
+
+/// The place of all pixels of such a row between the texels.
+template <typename Level>
+struct StraightParts {
+  typename PixelPlaces<Level>::Part y{};
+  typename PixelPlaces<Level>::Part z{};
+};
+
+/// Gives what mix_linear and pack_pixels would, R G B, in a fraction of the time.
+template <typename Level>
+void mix_straight(const StraightRun& run, const StraightParts<Level>& parts, Level* rgb);
+
 /// Tricubic by Catmull-Rom (Keys 1981, a = −½). Radius 2 voxels, support 4, order 2 (continuous
 /// with its first derivative; reproduces quadratics). In float; what overshoots is clamped.
 /// `texels` are the 4³ of the support, R G B and a fourth level, x fastest, then y, then z; `part`

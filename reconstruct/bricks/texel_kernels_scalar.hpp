@@ -97,6 +97,26 @@ void mix_linear(const PixelPlaces<Level>& places, std::size_t count, Level* pixe
   }
 }
 
+template <typename Level>
+void mix_straight(const StraightRun& run, const StraightParts<Level>& parts, Level* rgb) {
+  PixelPlaces<Level> places;
+  places.resize(1);
+  places.crosses = true;
+  places.y[0] = parts.y;
+  places.z[0] = parts.z;
+  for (std::size_t i = run.first; i < run.first + run.count; ++i) {
+    const std::size_t levels = i / TexelBlocks::kSide * TexelBlocks::kBlockLevels +
+                               i % TexelBlocks::kSide * TexelBlocks::kColours;
+    for (std::size_t row = 0; row < 2; ++row) {
+      places.upper[row][0] = run.upper[row] + levels * sizeof(Level);
+      places.lower[row][0] = run.lower[row] + levels * sizeof(Level);
+    }
+    std::array<Level, 4> pixel{};
+    scalar::mix_linear(places, 1, pixel.data());
+    rgb = std::copy_n(pixel.begin(), 3, rgb);
+  }
+}
+
 /// Of the voxels at −1, 0, 1 and 2 for a point at `part` (Keys 1981, equation 4 with a = −½).
 inline std::array<float, 4> catmull_rom(float part) {
   const float t = part;

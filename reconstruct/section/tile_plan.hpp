@@ -41,6 +41,11 @@ struct PictureRow {
   VoxelRow place;                    ///< in voxels of the level
   std::array<bool, 3> on_centres{};  ///< all pixels lie on voxel centres along this axis
 
+  /// Whether the pixels lie along x from one voxel's centre to the next's.
+  bool is_straight() const {
+    return on_centres[0] && place.step == std::array<double, 3>{1.0, 0.0, 0.0};
+  }
+
   PictureRow() = default;
   PictureRow(const BrickSource& source, int level, const PixelGrid& grid, int number);
 };

@@ -95,10 +95,11 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
       continue;
     }
     const PictureRow& row = rows[i - 1];
-    sample_row(plan, row, places_[(i - 1) % 2]);
     auto* out = picture.ptr<Level>(row.row - first_row);
     paint(out + 3 * std::ptrdiff_t{columns.first}, row.inside.first - columns.first);
-    pack_pixels(row_.data(), inside_count(row), out + 3 * std::ptrdiff_t{row.inside.first});
+    if (inside_count(row) > 0) {
+      sample_row(plan, row, places_[(i - 1) % 2], out + 3 * std::ptrdiff_t{row.inside.first});
+    }
     paint(out + 3 * std::ptrdiff_t{row.inside.last}, columns.last - row.inside.last);
   }
 }
@@ -140,6 +141,12 @@ void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
                                     RowPlaces& places) const {
   const RowPath& path = plan.path(number);
   const std::span<const BrickRun> runs = plan.runs(number);
+  places.straight.clear();
+  if (plan.rows()[number].is_straight() &&
+      std::none_of(runs.begin(), runs.end(), [](const BrickRun& run) { return run.parted; })) {
+    place_straight(plan, path, runs, places);
+    return;
+  }
   PixelPlaces<Level>& pairs = places.pairs;
   pairs.crosses =
       path.axes[2].step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
@@ -235,6 +242,40 @@ void TileSampler<Level>::gather_parted(RowPlaces& places) {
   }
 }
 
+template <typename Level>
+void TileSampler<Level>::place_straight(const TilePlan& plan, const RowPath& path,
+                                        std::span<const BrickRun> runs, RowPlaces& places) const {
+  constexpr std::size_t kBlock = TexelBlocks::kBlockLevels * sizeof(Level);
+  const TexelBlocks& blocks = plan.blocks();
+  for (const BrickRun& run : runs) {
+    const auto& [x_bricks, y_bricks, z_bricks] = run.bricks;
+    const TexelPair y = texel_pair(path.axes[1], y_bricks, run.first);
+    const TexelPair z = texel_pair(path.axes[2], z_bricks, run.first);
+    const auto row = [&, along_x = x_bricks.near](int y_brick, int y_texel, int z_brick,
+                                                  int z_texel) {
+      return bricks_[static_cast<std::size_t>(path.slot(along_x, y_brick, z_brick))] +
+             (blocks.along_y(y_texel) + blocks.along_z(z_texel));
+    };
+    StraightRun straight;
+    straight.upper = {row(y_bricks.near, y.near, z_bricks.near, z.near),
+                      row(y_bricks.far, y.far, z_bricks.near, z.near)};
+    straight.lower = {row(y_bricks.near, y.near, z_bricks.far, z.far),
+                      row(y_bricks.far, y.far, z_bricks.far, z.far)};
+    straight.first = static_cast<std::size_t>(texel_pair(path.axes[0], x_bricks, run.first).near);
+    straight.count = static_cast<std::size_t>(run.last - run.first);
+    const std::size_t last = straight.first + straight.count - 1;
+    for (std::size_t block = straight.first / TexelBlocks::kSide;
+         block <= last / TexelBlocks::kSide; ++block) {
+      for (const std::array<const std::byte*, 2>& rows : {straight.upper, straight.lower}) {
+        __builtin_prefetch(rows[0] + block * kBlock);
+        __builtin_prefetch(rows[1] + block * kBlock);
+      }
+    }
+    places.straight.push_back(straight);
+    places.straight_parts = {PixelPlaces<Level>::part(y.part), PixelPlaces<Level>::part(z.part)};
+  }
+}
+
 /// The texels of each pixel's support, x fastest, then y, then z.
 template <typename Level>
 template <int width>
@@ -265,9 +306,13 @@ void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& 
 }
 
 template <typename Level>
-void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
-                                    RowPlaces& places) {
-  if (inside_count(row) == 0) {
+void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places,
+                                    Level* rgb) {
+  if (!places.straight.empty()) {
+    for (const StraightRun& run : places.straight) {
+      mix_straight(run, places.straight_parts, rgb);
+      rgb += 3 * run.count;
+    }
     return;
   }
   switch (kind_) {
@@ -282,6 +327,7 @@ void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
       mix_supports(plan, row, places);
       break;
   }
+  pack_pixels(row_.data(), inside_count(row), rgb);
 }
 
 template <typename Level>

@@ -40,8 +40,10 @@ class TileSampler {
   /// Where a row's pixels lie.
   struct RowPlaces {
     PixelPlaces<Level> pairs;
-    std::vector<PartedTexels> parted;      // of the runs that are parted, in the row's order
-    std::vector<std::byte> parted_pairs;   // where these are gathered, so that they can be mixed
+    std::vector<PartedTexels> parted;     // of the runs that are parted, in the row's order
+    std::vector<std::byte> parted_pairs;  // where these are gathered, so that they can be mixed
+    std::vector<StraightRun> straight;    // of all pixels instead, where that can be
+    StraightParts<Level> straight_parts;
     std::vector<const std::byte*> texels;  // nearest, cubic: of the supports of all pixels
   };
 
@@ -52,9 +54,11 @@ class TileSampler {
   void place_parted(const TilePlan& plan, const RowPath& path, const BrickRun& run,
                     RowPlaces& places) const;
   static void gather_parted(RowPlaces& places);
+  void place_straight(const TilePlan& plan, const RowPath& path, std::span<const BrickRun> runs,
+                      RowPlaces& places) const;
   template <int width>
   void place_supports(const TilePlan& plan, const PictureRow& row, RowPlaces& places) const;
-  void sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places);
+  void sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places, Level* rgb);
   void take_nearest(const RowPlaces& places);
   void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
 

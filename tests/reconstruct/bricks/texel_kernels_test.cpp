@@ -200,6 +200,40 @@ TYPED_TEST(TexelKernels, MixLinearlyAsTheScalarOnesDo) {
   });
 }
 
+TYPED_TEST(TexelKernels, MixStraightRunsAsTheScalarOnesDoAndNothingElse) {
+  using Level = TypeParam;
+  for_each_vector_width([] {
+    constexpr int kOff = sizeof(Level) == 1 ? 0 : 1;  // 8 bits: to the bit
+    std::mt19937 random(9);
+    const NoisyBrick<Level> upper(kShape, random);
+    const NoisyBrick<Level> lower(kShape, random);
+    const auto texels = static_cast<std::size_t>(upper.side(0));
+    for (std::size_t first = 0; first < texels; ++first) {
+      for (std::size_t count = 1; count <= texels - first; ++count) {
+        const auto row_of = [&](const NoisyBrick<Level>& brick) {
+          return brick.texels() + brick.blocks.along_y(static_cast<int>(random() % 11)) +
+                 brick.blocks.along_z(static_cast<int>(random() % 6));
+        };
+        const StraightRun run{
+            {row_of(upper), row_of(upper)}, {row_of(lower), row_of(lower)}, first, count};
+        const auto part = [&] {
+          const std::array<float, 3> values{0.0F, 0x1.fffffep-1F,
+                                            static_cast<float>(random() % 1000) / 1000.0F};
+          return PixelPlaces<Level>::part(values[random() % 3]);
+        };
+        const StraightParts<Level> parts{part(), part()};
+        const auto got = std::make_unique<Level[]>(3 * count);  // no room behind the last pixel
+        const auto wanted = std::make_unique<Level[]>(3 * count);
+        mix_straight(run, parts, got.get());
+        scalar::mix_straight(run, parts, wanted.get());
+        for (std::size_t i = 0; i < 3 * count; ++i) {
+          ASSERT_LE(std::abs(got[i] - wanted[i]), kOff) << i << " of " << count;
+        }
+      }
+    }
+  });
+}
+
 // The scalar kernels against the definition, so that what the others are held against is right.
 TYPED_TEST(TexelKernels, MixLinearlyWithinALevelOfExactArithmetic) {
   using Level = TypeParam;
