@@ -51,14 +51,14 @@ const withoutGeneration = (address: string): string => address.replace(/&generat
 const sameButGrown = (before: Wish, after: Wish): boolean =>
   withoutGeneration(before.sharp.address) === withoutGeneration(after.sharp.address);
 
-/** Calls when the connection is back after it was lost. */
+/** Calls when the connection is back after it was lost or given up. */
 function onBack(call: () => void): () => void {
-  let lost = false;
+  let away = false;
   return effect(() => {
     const { state } = connection.value;
-    if (state === "lost") lost = true;
-    else if (state === "live" && lost) {
-      lost = false;
+    if (state === "lost" || state === "resting") away = true;
+    else if (state === "live" && away) {
+      away = false;
       call();
     }
   });

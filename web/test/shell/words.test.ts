@@ -76,6 +76,8 @@ describe("the tab's title", () => {
     expect(tabTitle(status, null, "lost")).toBe("Connection lost – knee – Biotomy");
     const alarmed = { ...status, state: "faulted", alarm } as Status;
     expect(tabTitle(alarmed, null, "lost")).toBe("⚠ ALARM – knee – Biotomy");
+    expect(tabTitle(alarmed, null, "resting")).toBe("⚠ ALARM – knee – Biotomy");
+    expect(tabTitle(status, null, "resting")).toBe("knee – Biotomy");
     expect(tabTitle(null, null, "connecting")).toBe("Biotomy");
   });
 });
