@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { getJson, isAbort, sentenceOf } from "../api/client";
 import type { LayerDetail, Sharpness } from "../api/types";
 import { committed, marks } from "./layers_state";
-import { retryWaitMs } from "./retry_wait";
+import { retryWaitMs } from "../api/retry_wait";
 
 export interface Answer<T> {
   readonly value: T | null;

@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { describe, expect, it } from "vitest";
 
-import { keepsKey, layerKey } from "./layer_keys";
+import { keepsKey, layerKey } from "../../src/layers/layer_keys";
 
 const pressed = (key: string, held: Partial<Record<string, boolean>> = {}) => ({
   key,

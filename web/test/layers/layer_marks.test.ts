@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { highestMarked, marksWith, noMarks } from "./layer_marks";
+import { highestMarked, marksWith, noMarks } from "../../src/layers/layer_marks";
 
 const attempts = [
   { id: 1, layer: 1, verdict: "accepted" },

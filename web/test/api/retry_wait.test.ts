@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 
-import { ApiError, ConnectionError } from "../api/client";
-import { retryWaitMs } from "./retry_wait";
+import { ApiError, ConnectionError } from "../../src/api/client";
+import { retryWaitMs } from "../../src/api/retry_wait";
 
 const refusal = (status: number, retryAfter: number | null = null) =>
   new ApiError(status, "code", "no", retryAfter);

@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
 
-import { PointerGestures } from "./pointer_gestures";
+import { PointerGestures } from "../../src/layers/pointer_gestures";
 
 function bench() {
   const heard = { dragged: vi.fn(), pinched: vi.fn(), doubleTapped: vi.fn(), swiped: vi.fn() };

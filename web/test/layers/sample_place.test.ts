@@ -7,7 +7,7 @@ import {
   toSample,
   viewFromLink,
   viewToLink,
-} from "./sample_place";
+} from "../../src/layers/sample_place";
 
 const pixel = { x: 10, y: 5 };
 

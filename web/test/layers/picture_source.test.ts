@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { TiledLayer, WholePicture, type BitmapLoader } from "./picture_source";
+import { TiledLayer, WholePicture, type BitmapLoader } from "../../src/layers/picture_source";
 
 const face = { width: 3000, height: 2000 };
 const all = { left: 0, top: 0, right: 3000, bottom: 2000 };

@@ -1,4 +1,4 @@
-import { ApiError, ConnectionError } from "../api/client";
+import { ApiError, ConnectionError } from "./client";
 
 /** Answers that mean "not now": too many requests, a full queue, work that was given up. */
 const passing = new Set([429, 502, 503, 504]);

@@ -1,6 +1,12 @@
 import { describe, expect, it } from "vitest";
 
-import { itemsInSight, itemsOfPage, length, scrollToCentre, scrollToShow } from "./virtual_list";
+import {
+  itemsInSight,
+  itemsOfPage,
+  length,
+  scrollToCentre,
+  scrollToShow,
+} from "../../src/layers/virtual_list";
 
 const list = { count: 10000, pitch: 100 };
 

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { scaleBar } from "./scale_bar";
+import { scaleBar } from "../../src/layers/scale_bar";
 
 it.each([
   [1, 120, 100, "100 µm"],

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { ApiError, ConnectionError } from "../api/client";
-import { PictureLoader } from "./picture_loader";
+import { ApiError, ConnectionError } from "../../src/api/client";
+import { PictureLoader } from "../../src/layers/picture_loader";
 
 interface Asked {
   address: string;

@@ -1,8 +1,8 @@
 // @vitest-environment happy-dom
 import { expect, it } from "vitest";
 
-import { parseHash } from "../shell/route";
-import { layerHash, layerLink } from "./layer_link";
+import { parseHash } from "../../src/shell/route";
+import { layerHash, layerLink } from "../../src/layers/layer_link";
 
 it.each([
   ["#/layers", null, null],

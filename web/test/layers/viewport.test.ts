@@ -10,7 +10,7 @@ import {
   toPicture,
   toScreen,
   zoomed,
-} from "./viewport";
+} from "../../src/layers/viewport";
 
 const shape = { width: 10000, height: 5000, stretch: 1 };
 const frame = { width: 1000, height: 800 };

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { cssColour, scaleColour, type Rgb } from "./colour_scale";
+import { cssColour, scaleColour, type Rgb } from "../../src/layers/colour_scale";
 
 /** Relative luminance as WCAG defines it. */
 function luminance(colour: Rgb): number {

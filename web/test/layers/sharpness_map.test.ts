@@ -1,7 +1,14 @@
 import { describe, expect, it } from "vitest";
 
-import type { Sharpness } from "../api/types";
-import { changeMap, changeRange, mapTile, partOf, shownRange, tileAt } from "./sharpness_map";
+import type { Sharpness } from "../../src/api/types";
+import {
+  changeMap,
+  changeRange,
+  mapTile,
+  partOf,
+  shownRange,
+  tileAt,
+} from "../../src/layers/sharpness_map";
 
 function mapOf(values: (number | null)[], columns: number): Sharpness {
   const rows = values.length / columns;

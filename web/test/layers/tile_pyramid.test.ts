@@ -1,6 +1,12 @@
 import { describe, expect, it } from "vitest";
 
-import { coarsestLevel, levelFor, tileRectangle, tilesWithin, type Tile } from "./tile_pyramid";
+import {
+  coarsestLevel,
+  levelFor,
+  tileRectangle,
+  tilesWithin,
+  type Tile,
+} from "../../src/layers/tile_pyramid";
 
 const face = { width: 10000, height: 5000 };
 

@@ -4,9 +4,9 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 
-import { replaceHash } from "../shell/route";
-import { useViewLink } from "./view_link";
-import type { Viewport } from "./viewport";
+import { replaceHash } from "../../src/shell/route";
+import { useViewLink } from "../../src/layers/view_link";
+import type { Viewport } from "../../src/layers/viewport";
 
 const viewport = signal<Viewport | null>(null);
 const pixel = { x: 10, y: 10 };

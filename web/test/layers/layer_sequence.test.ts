@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 
-import { marksWith, noMarks } from "./layer_marks";
-import { allLayers, filteredLayers, someLayers } from "./layer_sequence";
+import { marksWith, noMarks } from "../../src/layers/layer_marks";
+import { allLayers, filteredLayers, someLayers } from "../../src/layers/layer_sequence";
 
 describe("all layers", () => {
   it("are numbered from 1", () => {
