@@ -5,8 +5,8 @@ const passing = new Set([429, 502, 503, 504]);
 const longestMs = 8000;
 
 /**
- * How long to wait until asking again may help: as long as the server says, else `usualMs`. Nothing
- * where it would not help.
+ * How long to wait until asking again may help: as long as the server says, else `usualMs`, but never
+ * longer than somebody would look at a page that lacks something. Nothing where it would not help.
  */
 export function retryWaitMs(error: unknown, usualMs: number): number | null {
   if (error instanceof ConnectionError) return Math.min(usualMs, longestMs);

@@ -5,7 +5,7 @@ import { isAbort, sentenceOf } from "../api/client";
 import { connection } from "../api/live";
 import type { ExplorerState } from "./explorer_state";
 import { rectangleOf } from "./section_record";
-import { fetchOutline, fetchPicture, retryAfter } from "./section_fetch";
+import { fetchOutline, fetchPicture, busyWait_ms } from "./section_fetch";
 import { SectionLoader } from "./section_loader";
 import type { Wish } from "./section_loader";
 import { isKnownHere } from "./theta_frame";
@@ -21,7 +21,7 @@ export function useSection(state: ExplorerState): void {
       fail: (error) => {
         if (!isAbort(error)) state.failure.value = sentenceOf(error);
       },
-      retryAfter,
+      busyWait_ms,
     });
     let before: Wish | null = null;
     const stopWishing = effect(() => {
