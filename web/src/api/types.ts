@@ -155,23 +155,6 @@ export interface LayerDetail {
   attempts: Attempt[];
 }
 
-export interface LayerRow {
-  layer: number;
-  attempt: number;
-  flagged: boolean;
-  file: string;
-  bytes: number;
-  sha256: string;
-  committed_at: string;
-  reason: string;
-  metrics: Metric[];
-}
-
-export interface Layers {
-  count: number;
-  layers: LayerRow[];
-}
-
 export interface Rejected {
   count: number;
   rejected: Attempt[]; // the newest first

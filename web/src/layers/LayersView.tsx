@@ -32,7 +32,7 @@ import type { PictureScreen } from "./picture_screen";
 import { RejectedList } from "./RejectedList";
 import type { MapKind } from "./sharpness_overlay";
 import { StripTools } from "./StripTools";
-import { verdictWords } from "./verdict_words";
+import { verdictWords } from "../journal/verdict_words";
 import { useViewLink } from "./view_link";
 import type { Viewport } from "./viewport";
 import { itemsOfPage } from "./virtual_list";

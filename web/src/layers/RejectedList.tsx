@@ -8,7 +8,7 @@ import { fixed } from "../ui/numbers";
 import { layerHash } from "./layer_link";
 import { useThumbnails } from "./thumbnails";
 import { timeText } from "./time_text";
-import { slugWords, verdictWords } from "./verdict_words";
+import { isRejected, slugWords } from "../journal/verdict_words";
 
 const pageLength = 50;
 
@@ -24,10 +24,7 @@ export function RejectedList() {
 
   useEffect(() => {
     const heard = () => setNews((told) => told + 1);
-    const stops = [
-      onAttempt(({ verdict }) => !verdictWords(verdict).accepted && heard()),
-      onGap(heard),
-    ];
+    const stops = [onAttempt(({ verdict }) => isRejected(verdict) && heard()), onGap(heard)];
     return () => stops.forEach((stop) => stop());
   }, []);
   const fetchPage = (older: number | null) => {

@@ -2,10 +2,12 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
+import type { Bound } from "../journal/metric_words";
 import { goTo, hashOf } from "../shell/route";
 import { Button } from "../ui/Button";
+import { isDark } from "../ui/dark_scheme";
 import { fixed } from "../ui/numbers";
-import { type LimitKind, chartData, firstRowFrom, lastOf } from "./chart_data";
+import { chartData, firstRowFrom, lastOf, limitLines } from "./chart_data";
 import { history, historyVersion } from "./run_history";
 
 interface Props {
@@ -13,7 +15,8 @@ interface Props {
   name: string;
   title: string;
   about: string;
-  limit: LimitKind;
+  /** How its limit counts. */
+  bound: Bound;
   /** How a value is written, with its unit. */
   text: (value: number | null) => string;
   /** How it is written at the axis, where lines are `step` apart. */
@@ -25,21 +28,21 @@ const manyRejected = 60; // from there on they are drawn small
 const hit_px = 14; // so near to a rejected attempt a click means it
 
 /** A value over layers, with its limit; rejected attempts stand out and lead to their layer. */
-export function LayerChart({ name, title, about, limit, text, tick }: Props) {
+export function LayerChart({ name, title, about, bound, text, tick }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const [zoomed, setZoomed] = useState(false);
   const [row, setRow] = useState<number | null>(null);
-  const dark = useDarkness();
+  const dark = isDark.value; // its colours are the page's when it is made
   const many = history.rejectedCount > manyRejected;
   const version = historyVersion.value;
-  const data = useMemo(() => chartData(history, name, limit), [name, limit, version]);
+  const data = useMemo(() => chartData(history, name, bound), [name, bound, version]);
 
   useEffect(() => {
     const element = box.current;
     if (!element) return undefined;
     const made = new uPlot(
-      optionsFor(element, limit, tick, many, setRow, setZoomed),
+      optionsFor(element, bound, tick, many, setRow, setZoomed),
       data as uPlot.AlignedData,
       element,
     );
@@ -53,7 +56,7 @@ export function LayerChart({ name, title, about, limit, text, tick }: Props) {
       made.destroy();
       plot.current = null;
     };
-  }, [name, limit, tick, dark, many]);
+  }, [name, bound, tick, dark, many]);
 
   useEffect(() => {
     const made = plot.current;
@@ -106,21 +109,9 @@ function readingOf(
   return words.join(", ");
 }
 
-/** True in the dark; a chart is drawn anew when that changes. */
-function useDarkness(): boolean {
-  const query = useMemo(() => window.matchMedia("(prefers-color-scheme: dark)"), []);
-  const [dark, setDark] = useState(query.matches);
-  useEffect(() => {
-    const changed = () => setDark(query.matches);
-    query.addEventListener("change", changed);
-    return () => query.removeEventListener("change", changed);
-  }, [query]);
-  return dark;
-}
-
 function optionsFor(
   element: HTMLElement,
-  limit: LimitKind,
+  bound: Bound,
   tick: Props["tick"],
   many: boolean,
   show: (row: number | null) => void,
@@ -142,7 +133,6 @@ function optionsFor(
     points: { show: false },
     spanGaps: true,
   };
-  const limits = limit === "none" ? 0 : limit === "either_way" ? 2 : 1;
   return {
     width: element.clientWidth,
     height: height_px,
@@ -181,7 +171,7 @@ function optionsFor(
           width: many ? 1 : 2,
         },
       },
-      ...Array.from({ length: limits }, () => limitLine),
+      ...Array.from({ length: limitLines(bound) }, () => limitLine),
     ],
     hooks: {
       setCursor: [

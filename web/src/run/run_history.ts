@@ -3,7 +3,8 @@ import { effect, signal } from "@preact/signals";
 import { ApiError, getJson, withQuery } from "../api/client";
 import { connection, onAttempt, onGap, sampleProgress, status } from "../api/live";
 import type { Attempt, History, Rejected } from "../api/types";
-import { AttemptHistory, type RejectedNote } from "./attempt_history";
+import { isRejected } from "../journal/verdict_words";
+import { AttemptHistory } from "./attempt_history";
 
 /** The job's attempts for the Run view: fetched once, then grown by what the stream tells. */
 
@@ -16,7 +17,7 @@ export const history = new AttemptHistory(chartMetrics);
 /** Grows when `history` did. */
 export const historyVersion = signal(0);
 /** The newest first. */
-export const rejectedOfLate = signal<RejectedNote[]>([]);
+export const rejectedOfLate = signal<Attempt[]>([]);
 export const rejectedCount = signal(0);
 
 /** Attempts that came before the rest was fetched; null when all that is known is in `history`. */
@@ -42,9 +43,8 @@ function take(attempt: Attempt): void {
 
 function noteRejected(attempt: Attempt): void {
   rejectedCount.value = history.rejectedCount;
-  const { rejectedOfLate: seen } = history;
-  if (seen[0]?.id === attempt.id) {
-    rejectedOfLate.value = [seen[0], ...rejectedOfLate.value].slice(0, rejectedShown);
+  if (isRejected(attempt.verdict)) {
+    rejectedOfLate.value = [attempt, ...rejectedOfLate.value].slice(0, rejectedShown);
   }
   tell();
 }

@@ -99,6 +99,15 @@ describe("the run's history", () => {
     expect(journal.asked).toHaveLength(2);
   });
 
+  it("lists the last rejected ones, the newest first and no more than twenty", async () => {
+    make(anAttempt(1));
+    await settle();
+    for (let id = 2; id <= 30; id += 1) make(anAttempt(id, "rejected"));
+    expect(run.rejectedOfLate.value).toHaveLength(20);
+    expect(run.rejectedOfLate.value[0]).toMatchObject({ id: 30, slug: "blurred" });
+    expect(run.rejectedCount.value).toBe(29);
+  });
+
   it("tells the charts of many attempts at once", async () => {
     make(anAttempt(1));
     await vi.advanceTimersByTimeAsync(300);

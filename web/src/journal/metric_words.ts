@@ -1,3 +1,4 @@
+import { capital } from "../shell/capital";
 import { dash, fixed, significant, withUnit } from "../ui/numbers";
 
 /** Metrics of a frame as a person reads them; what each of them is: docs/quality.md. */
@@ -52,8 +53,7 @@ const known = new Map<string, MetricWords>(
 
 /** Of a metric that this page does not know: its name, and its numbers as they are. */
 export function metricWords(name: string): MetricWords {
-  const plain = name.replaceAll("_", " ");
-  const title = plain.charAt(0).toUpperCase() + plain.slice(1);
+  const title = capital(name.replaceAll("_", " "));
   return known.get(name) ?? { title, bound: "unknown", unit: "ratio" };
 }
 

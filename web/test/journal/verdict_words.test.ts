@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { slugWords, verdictWords } from "../../src/layers/verdict_words";
+import { slugWords, verdictWords } from "../../src/journal/verdict_words";
 
 it.each([
   ["accepted", "Accepted", "good", true],

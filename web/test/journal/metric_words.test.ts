@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { limitText, metricOrder, metricWords, valueText } from "../../src/layers/metric_words";
+import { limitText, metricOrder, metricWords, valueText } from "../../src/journal/metric_words";
 
 it.each([
   ["sharpness_ratio", 0.98765, 0.96, "0.988", "≥ 0.960"],

@@ -24,6 +24,10 @@ export function verdictWords(verdict: string): VerdictWords {
   }
 }
 
+/** The frame was judged, and did not become the layer's image. */
+export const isRejected = (verdict: string): boolean =>
+  verdict === "rejected" || verdict === "not_stored";
+
 /** The slug of a reason in words: "face-unchanged" is "face unchanged". */
 export function slugWords(slug: string): string {
   return slug.replaceAll("-", " ");
