@@ -48,7 +48,7 @@ export function RejectedList() {
 
   const last = frames[frames.length - 1];
   return (
-    <section class="rejected" aria-label="Rejected frames">
+    <section class="rejected-all" aria-label="Rejected frames">
       {trouble && <p class="notice notice-bad">{trouble}</p>}
       {count === 0 && <p class="muted">No frame has been rejected.</p>}
       <ul class="rejected-frames">
