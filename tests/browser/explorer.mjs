@@ -5,6 +5,7 @@ import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { decoded } from "./pictures.mjs";
+import { limited } from "./programs.mjs";
 import { until } from "./until.mjs";
 
 export const cuboid = (page) => page.locator('canvas[data-role="cuboid"]');
@@ -32,9 +33,9 @@ export function drawnByTool(command) {
   try {
     const environment = { ...process.env, PATH: `${process.env.BIOTOMY_BIN}:${process.env.PATH}` };
     const { status, stderr } = spawnSync("sh", ["-c", command], {
+      ...limited,
       cwd: folder,
       env: environment,
-      encoding: "utf8",
     });
     assert.equal(status, 0, `${command}: ${stderr}`);
     const [name] = fs.readdirSync(folder);
