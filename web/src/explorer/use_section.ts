@@ -76,15 +76,20 @@ function watchRectangle(state: ExplorerState): () => void {
     const query = state.query.value;
     const needed = state.around.value && !isKnownHere(state.choices.value.theta);
     if (!query || !needed || state.rectangle.value) return;
-    timer = setTimeout(() => {
+    const ask = () => {
       abort = new AbortController();
       fetchOutline(query, abort.signal).then(
         (record) => {
           state.inscribed.value = { of: JSON.stringify(query), rectangle: rectangleOf(record) };
         },
-        () => {}, // the picture's own refusal is told
+        (error: unknown) => {
+          const wait = busyWait_ms(error);
+          if (wait !== null) timer = setTimeout(ask, wait);
+          // Else the picture's own refusal is told.
+        },
       );
-    }, outlineRest_ms);
+    };
+    timer = setTimeout(ask, outlineRest_ms);
   });
   return () => {
     stop();

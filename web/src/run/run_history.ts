@@ -11,7 +11,7 @@ import { AttemptHistory } from "./attempt_history";
 export const chartMetrics = ["sharpness_ratio", "brightness"] as const;
 const rejectedShown = 20;
 const quickest_ms = 250; // between two looks of the charts at what is new
-const refused_ms = 10_000; // until a server that had too much to do is asked again
+const refused_ms = 10_000; // until a server that would not answer this is asked again
 
 export const history = new AttemptHistory(chartMetrics);
 /** Grows when `history` did. */
@@ -70,7 +70,8 @@ async function fetchAll(): Promise<void> {
     tell();
   } catch (error) {
     // Without a connection it is fetched with the next one.
-    if (error instanceof ApiError) setTimeout(() => void fetchAll(), refused_ms);
+    const answers = error instanceof ApiError || connection.peek().state === "live";
+    if (answers) setTimeout(() => void fetchAll(), refused_ms);
     else missed = true;
   } finally {
     fetching = false;

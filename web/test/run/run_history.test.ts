@@ -127,6 +127,17 @@ describe("the run's history", () => {
     expect(run.history.layer).toEqual([1, 2, 3, 4]);
   });
 
+  it("asks again when one answer was lost though the stream goes on", async () => {
+    live.connection.value = { ...live.connection.value, state: "live" };
+    journal.attempts = [anAttempt(1)];
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("the connection was reset")));
+    make(anAttempt(2));
+    await settle();
+    vi.stubGlobal("fetch", journal.fetch);
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(run.history.layer).toEqual([1, 2]);
+  });
+
   it("asks again when the server would not answer, and loses nothing", async () => {
     journal.attempts = [anAttempt(1)];
     journal.status = 503;

@@ -126,6 +126,21 @@ describe("alarm and commands", () => {
     expect(page().querySelector('dialog [role="alert"]')?.textContent).toBe("the job is done");
   });
 
+  it("does not claim to know what became of a command that nobody answered", async () => {
+    fetched.mockRejectedValue(new TypeError("failed"));
+    show({ commands: ["pause"] });
+    await press("Pause");
+    await act(async () => {
+      page()
+        .querySelector("form")
+        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    expect(page().querySelector('dialog [role="alert"]')?.textContent).toMatch(
+      /does not answer\. The rig’s state will show/,
+    );
+  });
+
   it("does not abort before the word is typed", async () => {
     show({ commands: ["abort"] });
     await press("Abort");
