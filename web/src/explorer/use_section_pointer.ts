@@ -118,7 +118,7 @@ export function useSectionPointer(
       if (draft.value) {
         const ends = draft.value;
         draft.value = null;
-        if (!clicked) {
+        if (!clicked && event.type === "pointerup") {
           state.around.value = true;
           const placed = state.placed.value;
           const custom =

@@ -135,6 +135,14 @@ describe("a click on an edge of the section", () => {
     expect(state.placed.value!.points[0]).not.toEqual(first);
   });
 
+  it("is no corner of a rectangle that is being drawn, which the browser may take away", () => {
+    tools.take("rectangle");
+    press("section", inSection(onEdge(1)), [-60, -40], "pointercancel");
+    expect(theta()).toEqual({ kind: "bounding" });
+    press("section", inSection(onEdge(1)), [-60, -40]);
+    expect(theta().kind).toBe("custom");
+  });
+
   it("does nothing while a series is shown, whose planes have other edges", () => {
     const at = inBlock(onEdge(1));
     state.frame.value = { placed: state.placed.value! } as never;
