@@ -3,6 +3,7 @@ import { useEffect } from "preact/hooks";
 
 import { isAbort, sentenceOf } from "../api/client";
 import { connection } from "../api/live";
+import { persistently } from "../api/retry_wait";
 import type { ExplorerState } from "./explorer_state";
 import { rectangleOf } from "./section_record";
 import { fetchOutline, fetchPicture, busyWait_ms } from "./section_fetch";
@@ -65,6 +66,7 @@ function onBack(call: () => void): () => void {
 }
 
 const outlineRest_ms = 80;
+const usualWait_ms = 1000;
 
 /** Asks the server for an inscribed rectangle where no picture tells of it. */
 function watchRectangle(state: ExplorerState): () => void {
@@ -76,20 +78,15 @@ function watchRectangle(state: ExplorerState): () => void {
     const query = state.query.value;
     const needed = state.around.value && !isKnownHere(state.choices.value.theta);
     if (!query || !needed || state.rectangle.value) return;
-    const ask = () => {
+    timer = setTimeout(() => {
       abort = new AbortController();
-      fetchOutline(query, abort.signal).then(
+      persistently((signal) => fetchOutline(query, signal), abort.signal, usualWait_ms).then(
         (record) => {
           state.inscribed.value = { of: JSON.stringify(query), rectangle: rectangleOf(record) };
         },
-        (error: unknown) => {
-          const wait = busyWait_ms(error);
-          if (wait !== null) timer = setTimeout(ask, wait);
-          // Else the picture's own refusal is told.
-        },
+        () => {}, // the picture's own refusal is told
       );
-    };
-    timer = setTimeout(ask, outlineRest_ms);
+    }, outlineRest_ms);
   });
   return () => {
     stop();
