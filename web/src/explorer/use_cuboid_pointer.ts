@@ -7,6 +7,7 @@ import { Fingers } from "./fingers";
 import type { Vector3 } from "./geometry/vector3";
 import { orbited, projected, zoomed } from "./orbit_camera";
 import type { Projection } from "./orbit_camera";
+import { movePoint } from "./plane_moves";
 import { chooseEdge, edgeUnder } from "./section_edge";
 
 const degreesPerPixel = 0.5;
@@ -72,7 +73,7 @@ export function useCuboidPointer(
       if (held.value !== null) {
         const wanted: [number, number] = [place[0] + grip[0], place[1] + grip[1]];
         const point = surfaceUnder(projection.value, wanted, state.far.value, last);
-        if (state.movePoint(held.value, point)) last = point;
+        if (movePoint(state, held.value, point)) last = point;
         return;
       }
       const turned = orbited(
