@@ -74,12 +74,7 @@ export function RigReadings({ status }: { status: Status }) {
       {stage ? (
         <dl class="readings">
           {instruments.map((instrument) => (
-            <Reading
-              key={instrument.name}
-              instrument={instrument}
-              stage={stage}
-              limits={limits ?? {}}
-            />
+            <Reading key={instrument.name} instrument={instrument} stage={stage} limits={limits} />
           ))}
         </dl>
       ) : (
@@ -92,7 +87,7 @@ export function RigReadings({ status }: { status: Status }) {
 interface ReadingProps {
   instrument: Instrument;
   stage: StageStatus;
-  limits: NonNullable<Status["limits"]>;
+  limits: Status["limits"];
 }
 
 function Reading({ instrument, stage, limits }: ReadingProps) {

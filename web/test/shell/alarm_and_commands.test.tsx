@@ -50,6 +50,7 @@ const alarm = {
   cause: "the door is open",
   since: "2024-05-01T10:00:00Z",
   state: "grinding",
+  kind: "door",
   advice: "Close the door, then acknowledge.",
 } as const;
 

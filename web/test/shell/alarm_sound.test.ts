@@ -3,7 +3,13 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { aStatus } from "../a_status";
 
-const alarm = { cause: "the door is open", since: "2024-05-01T10:00:00Z", state: "grinding" };
+const alarm = {
+  cause: "the door is open",
+  since: "2024-05-01T10:00:00Z",
+  state: "grinding",
+  kind: "door",
+  advice: "Close the door, then acknowledge.",
+} as const;
 
 describe("the sound of an alarm", () => {
   let live: typeof import("../../src/api/live");
@@ -37,7 +43,7 @@ describe("the sound of an alarm", () => {
     live = await import("../../src/api/live");
     sound = await import("../../src/shell/alarm_sound");
     sound.watchAlarms();
-    live.status.value = aStatus({ alarm: alarm as never });
+    live.status.value = aStatus({ alarm: alarm });
   });
   afterEach(() => {
     live.status.value = null;
