@@ -28,17 +28,13 @@ using LevelVector = hn::Vec<Levels16>;
 constexpr std::size_t kPixelsAtOnce = 2 * kBlocks;
 constexpr int kLevelShift = 7;  // bits below a level: differences of levels just fit into 16 bits
 
-/// The pairs at pair[0] + offset, pair[2] + offset … of a vector's blocks: eight bytes each. Where
-/// two are put side by side sixteen are read, which saves an instruction.
+/// The pairs at pair[0] + offset, pair[2] + offset … of a vector's blocks: eight bytes each, since
+/// longer loads would reach into the next line of memory, which nobody has asked for.
 template <std::size_t blocks>
 HWY_INLINE auto load_pairs(const std::byte* const* pair, std::ptrdiff_t offset) {
   const hn::FixedTag<std::uint64_t, blocks> d;
   if constexpr (blocks == 1) {
     return hn::LoadU(d, reinterpret_cast<const std::uint64_t*>(pair[0] + offset));
-  } else if constexpr (blocks == 2) {
-    return hn::InterleaveLower(
-        d, hn::LoadU(d, reinterpret_cast<const std::uint64_t*>(pair[0] + offset)),
-        hn::LoadU(d, reinterpret_cast<const std::uint64_t*>(pair[2] + offset)));
   } else {
     return hn::Combine(d, load_pairs<blocks / 2>(pair + blocks, offset),
                        load_pairs<blocks / 2>(pair, offset));

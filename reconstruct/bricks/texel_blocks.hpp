@@ -35,11 +35,16 @@ class TexelBlocks {
     return static_cast<std::size_t>(shape_[0]) * static_cast<std::size_t>(layer_bytes());
   }
 
+  // Texels are counted from 0: said without a sign it is a shift and a mask.
   int along_x(int texel) const {
-    return texel / kSide * block_bytes() + texel % kSide * texel_bytes();
+    const auto number = static_cast<unsigned>(texel);
+    return static_cast<int>(number / kSide) * block_bytes() +
+           static_cast<int>(number % kSide) * texel_bytes();
   }
   int along_y(int texel) const {
-    return texel / kSide * block_row_bytes() + texel % kSide * row_bytes();
+    const auto number = static_cast<unsigned>(texel);
+    return static_cast<int>(number / kSide) * block_row_bytes() +
+           static_cast<int>(number % kSide) * row_bytes();
   }
   int along_z(int texel) const { return texel * layer_bytes(); }
 

@@ -8,6 +8,7 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr std::size_t kPixelLevels = 4;
+constexpr std::size_t kPairLevels = 8;  // two texels of three, and two that mean nothing
 constexpr std::size_t kVectorBytes = 64;
 constexpr std::size_t kPixelsOfALine = 2;  // at least: a line of memory holds 4 × 4 texels
 
@@ -28,6 +29,33 @@ template <typename Level>
     }
   }
 }
+
+/// Where parted pixels' pairs of texels are gathered: in a layer a pixel's two, one behind the
+/// other, and those of the layer below as many bytes behind them as the whole row's are.
+template <typename Level>
+class PartedPairs {
+ public:
+  static constexpr std::size_t kPair = kPairLevels * sizeof(Level);
+
+  explicit PartedPairs(const PixelPlaces<Level>& row)
+      : down_(row.crosses ? 2 * kPair : static_cast<std::size_t>(row.down)),
+        in_a_band_(down_ == 0 ? kMostPixels : static_cast<unsigned>(down_ / (2 * kPair))) {}
+
+  std::size_t down() const { return down_; }
+
+  /// Of the upper pairs of a row's parted pixel.
+  std::size_t place(unsigned number) const {
+    return std::size_t{number / in_a_band_} * 2 * down_ + number % in_a_band_ * 2 * kPair;
+  }
+  /// Room for so many pixels' pairs, and for a vector that begins with the last of them.
+  std::size_t bytes(unsigned count) const {
+    return count == 0 ? 0 : place(count - 1) + down_ + kPair + kVectorBytes;
+  }
+
+ private:
+  std::size_t down_;
+  unsigned in_a_band_;  // of upper pairs, until the lower ones of the first begin
+};
 
 }  // namespace
 
@@ -91,21 +119,19 @@ void TileSampler<Level>::resize(std::size_t width) {
 template <typename Level>
 void TileSampler<Level>::place_row(const TilePlan& plan, std::size_t number, RowPlaces& places) {
   const PictureRow& row = plan.rows()[number];
-  places.gathered.clear();
   if (inside_count(row) == 0) {
     return;
   }
-  if (kind_ == Interpolation::linear) {
-    place_runs(plan, number, places);
-    return;
-  }
-  for (std::size_t i = 0; i < inside_count(row); ++i) {
-    places.gathered.push_back(i);
-  }
-  if (kind_ == Interpolation::nearest) {
-    place_supports<1>(plan, row, places);
-  } else {
-    place_supports<4>(plan, row, places);
+  switch (kind_) {
+    case Interpolation::nearest:
+      place_supports<1>(plan, row, places);
+      break;
+    case Interpolation::linear:
+      place_runs(plan, number, places);
+      break;
+    case Interpolation::cubic:
+      place_supports<4>(plan, row, places);
+      break;
   }
 }
 
@@ -114,13 +140,18 @@ void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
                                     RowPlaces& places) const {
   const RowPath& path = plan.path(number);
   const std::span<const BrickRun> runs = plan.runs(number);
-  places.texels.clear();
-  places.between.clear();
   PixelPlaces<Level>& pairs = places.pairs;
   pairs.crosses =
       path.axes[2].step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
   pairs.down = path.axes[2].next * std::ptrdiff_t{path.layer_bytes};
   reconstruct::place_runs(path, runs, bricks_.data(), pairs);
+  unsigned parted = 0;
+  for (const BrickRun& run : runs) {
+    parted += run.parted ? static_cast<unsigned>(run.last - run.first) : 0;
+  }
+  places.parted.clear();
+  places.parted_pairs.resize(
+      std::max(places.parted_pairs.size(), PartedPairs<Level>(pairs).bytes(parted)));
   for (const BrickRun& run : runs) {
     if (run.parted) {
       place_parted(plan, path, run, places);
@@ -136,56 +167,84 @@ void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
   }
 }
 
-/// The texels of a run's pixels, x fastest, then y, then z. That they are parted does not show in
-/// the row's pairs, where they have places of other texels, to be mixed and overwritten.
+/// Finds the texels of a run's pixels. In the row's places stands where they will be gathered.
 template <typename Level>
 void TileSampler<Level>::place_parted(const TilePlan& plan, const RowPath& path,
                                       const BrickRun& run, RowPlaces& places) const {
-  const auto& [x, y, z] = run.bricks;
-  std::array<const std::byte*, 8> bricks{};
+  const TexelBlocks& blocks = plan.blocks();
+  const auto along = [&](std::size_t axis, int pixel) {
+    const TexelPair texels = texel_pair(path.axes[axis], run.bricks[axis], pixel);
+    return AxisPlaces{{blocks.along(axis, texels.near), blocks.along(axis, texels.far)},
+                      PixelPlaces<Level>::part(texels.part)};
+  };
+  std::array<std::array<int, 2>, 3> slots{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const BrickPair& bricks = run.bricks[axis];
+    const int stride = path.axes[axis].slot_stride;
+    slots[axis] = {bricks.near * stride, bricks.far * stride};
+  }
+  PartedTexels bricks{};
   for (std::size_t corner = 0; corner < bricks.size(); ++corner) {
     bricks[corner] = bricks_[static_cast<std::size_t>(
-        path.slot(corner % 2 == 0 ? x.near : x.far, corner / 2 % 2 == 0 ? y.near : y.far,
-                  corner / 4 == 0 ? z.near : z.far))];
+        slots[0][corner % 2] + slots[1][corner / 2 % 2] + slots[2][corner / 4])];
   }
-  const TexelBlocks& blocks = plan.blocks();
-  const std::size_t first = places.gathered.size();
-  const std::size_t count = first + static_cast<std::size_t>(run.last - run.first);
-  places.gathered.resize(count);
-  places.between.resize(count);
-  places.texels.resize(count * bricks.size());
-  const std::byte** texels = places.texels.data() + first * bricks.size();
-  for (std::size_t i = first; i < count; ++i) {
-    const int pixel = run.first + static_cast<int>(i - first);
-    const TexelPair along_x = texel_pair(path.axes[0], x, pixel);
-    const TexelPair along_y = texel_pair(path.axes[1], y, pixel);
-    const TexelPair along_z = texel_pair(path.axes[2], z, pixel);
-    const std::array<int, 2> columns{blocks.along_x(along_x.near), blocks.along_x(along_x.far)};
-    const std::array<int, 2> rows{blocks.along_y(along_y.near), blocks.along_y(along_y.far)};
-    const std::array<int, 2> layers{blocks.along_z(along_z.near), blocks.along_z(along_z.far)};
-    for (std::size_t corner = 0; corner < bricks.size(); ++corner) {
-      *texels = bricks[corner] + (columns[corner % 2] + rows[corner / 2 % 2] + layers[corner / 4]);
-      __builtin_prefetch(*texels++);
+  PixelPlaces<Level>& pairs = places.pairs;
+  const PartedPairs<Level> gathered(pairs);
+  const bool stays_in_a_layer = path.axes[2].step == 0;
+  AxisPlaces z = along(2, run.first);
+  for (int pixel = run.first; pixel < run.last; ++pixel) {
+    const AxisPlaces x = along(0, pixel);
+    const AxisPlaces y = along(1, pixel);
+    if (!stays_in_a_layer) {
+      z = along(2, pixel);
     }
-    places.between[i] = {along_x.part, along_y.part, along_z.part};
-    places.gathered[i] = static_cast<std::size_t>(pixel);
-    for (auto* pairs : {&places.pairs.upper, &places.pairs.lower}) {
-      (*pairs)[0][places.gathered[i]] = bricks.front();
-      (*pairs)[1][places.gathered[i]] = bricks.front();
+    const std::byte* const upper =
+        places.parted_pairs.data() + gathered.place(static_cast<unsigned>(places.parted.size()));
+    PartedTexels& texels = places.parted.emplace_back();
+    for (std::size_t corner = 0; corner < texels.size(); ++corner) {
+      texels[corner] = bricks[corner] +
+                       (x.offsets[corner % 2] + y.offsets[corner / 2 % 2] + z.offsets[corner / 4]);
+      __builtin_prefetch(texels[corner]);
+    }
+    const auto i = static_cast<std::size_t>(pixel);
+    for (std::size_t row = 0; row < 2; ++row) {
+      pairs.upper[row][i] = upper + row * gathered.kPair;
+      pairs.lower[row][i] = pairs.upper[row][i] + gathered.down();
+    }
+    pairs.x[i] = x.part;
+    pairs.y[i] = y.part;
+    pairs.z[i] = z.part;
+  }
+}
+
+/// As the kernel wants to find them. One level more than a texel's is copied, to have whole words:
+/// the next copy overwrites it, or it means nothing.
+template <typename Level>
+void TileSampler<Level>::gather_parted(RowPlaces& places) {
+  constexpr std::size_t kTexelLevels = 3;
+  const PartedPairs<Level> gathered(places.pairs);
+  for (unsigned i = 0; i < places.parted.size(); ++i) {
+    const PartedTexels& texels = places.parted[i];
+    std::byte* const upper = places.parted_pairs.data() + gathered.place(i);
+    for (std::size_t corner = 0; corner < texels.size(); ++corner) {
+      std::byte* const pair =
+          upper + corner / 4 * gathered.down() + corner / 2 % 2 * gathered.kPair;
+      std::memcpy(pair + corner % 2 * kTexelLevels * sizeof(Level), texels[corner],
+                  (kTexelLevels + 1) * sizeof(Level));
     }
   }
 }
 
-/// The texels of each gathered pixel's support, x fastest, then y, then z.
+/// The texels of each pixel's support, x fastest, then y, then z.
 template <typename Level>
 template <int width>
 void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& row,
                                         RowPlaces& places) const {
   constexpr std::size_t kTexels = std::size_t{width} * width * width;
-  places.texels.resize(places.gathered.size() * kTexels);
+  places.texels.resize(inside_count(row) * kTexels);
   const std::byte** out = places.texels.data();
-  for (const std::size_t pixel : places.gathered) {
-    const PixelSupport at = plan.support_at(row, row.inside.first + static_cast<int>(pixel));
+  for (int column = row.inside.first; column < row.inside.last; ++column) {
+    const PixelSupport at = plan.support_at(row, column);
     std::array<std::array<VoxelPlaces::Place, width>, 3> support;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (int j = 0; j < width; ++j) {
@@ -207,18 +266,17 @@ void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& 
 
 template <typename Level>
 void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
-                                    const RowPlaces& places) {
+                                    RowPlaces& places) {
+  if (inside_count(row) == 0) {
+    return;
+  }
   switch (kind_) {
     case Interpolation::nearest:
       take_nearest(places);
       break;
     case Interpolation::linear:
-      if (places.gathered.size() < inside_count(row)) {
-        mix_linear(places.pairs, inside_count(row), row_.data());
-      }
-      if (!places.gathered.empty()) {
-        mix_parted(places);
-      }
+      gather_parted(places);
+      mix_linear(places.pairs, inside_count(row), row_.data());
       break;
     case Interpolation::cubic:
       mix_supports(plan, row, places);
@@ -226,45 +284,9 @@ void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
   }
 }
 
-// The texels of all of a row's parted pixels are gathered as the kernel wants to find them, and
-// mixed at once.
-template <typename Level>
-void TileSampler<Level>::mix_parted(const RowPlaces& places) {
-  constexpr std::size_t kTexels = 8;
-  constexpr std::size_t kTexel = 3 * sizeof(Level);
-  constexpr std::size_t kPair = 8 * sizeof(Level);
-  constexpr std::size_t kSupport = 4 * kPair;
-  const std::size_t count = places.gathered.size();
-  parted_texels_.resize(count * kSupport + kVectorBytes);
-  parted_pixels_.resize(kPixelLevels * (count + kRoomPixels));
-  parted_places_.resize(count);
-  parted_places_.down = 2 * kPair;
-  for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
-    std::byte* const support = parted_texels_.data() + std::min(i, count - 1) * kSupport;
-    parted_places_.upper[0][i] = support;
-    parted_places_.upper[1][i] = support + kPair;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    std::byte* const support = parted_texels_.data() + i * kSupport;
-    for (std::size_t corner = 0; corner < kTexels; ++corner) {
-      // One level more than a texel's: whole words, of which the next copy overwrites the end.
-      std::memcpy(support + corner / 2 * kPair + corner % 2 * kTexel,
-                  places.texels[i * kTexels + corner], 4 * sizeof(Level));
-    }
-    parted_places_.x[i] = PixelPlaces<Level>::part(places.between[i][0]);
-    parted_places_.y[i] = PixelPlaces<Level>::part(places.between[i][1]);
-    parted_places_.z[i] = PixelPlaces<Level>::part(places.between[i][2]);
-  }
-  mix_linear(parted_places_, count, parted_pixels_.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    std::memcpy(row_.data() + kPixelLevels * places.gathered[i],
-                parted_pixels_.data() + kPixelLevels * i, kPixelLevels * sizeof(Level));
-  }
-}
-
 template <typename Level>
 void TileSampler<Level>::take_nearest(const RowPlaces& places) {
-  for (std::size_t i = 0; i < places.gathered.size(); ++i) {
+  for (std::size_t i = 0; i < places.texels.size(); ++i) {
     std::memcpy(row_.data() + kPixelLevels * i, places.texels[i], 3 * sizeof(Level));
   }
 }
@@ -275,7 +297,7 @@ void TileSampler<Level>::mix_supports(const TilePlan& plan, const PictureRow& ro
   constexpr std::size_t kTexels = 64;
   std::array<Level, kTexels * kPixelLevels> support{};
   const std::byte* const* texel = places.texels.data();
-  for (std::size_t i = 0; i < places.gathered.size(); ++i) {
+  for (std::size_t i = 0; i < inside_count(row); ++i) {
     for (std::size_t j = 0; j < kTexels; ++j) {
       std::memcpy(support.data() + kPixelLevels * j, *texel++, 3 * sizeof(Level));
     }

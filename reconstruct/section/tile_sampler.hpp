@@ -28,13 +28,21 @@ class TileSampler {
             cv::Mat& picture);
 
  private:
-  /// Where a row's pixels lie. Those whose texels are gathered one by one (linear: of the runs that
-  /// are parted; others: all) are told by their number in the row.
+  /// The texels of a parted pixel's support, x fastest, then y, then z.
+  using PartedTexels = std::array<const std::byte*, 8>;
+
+  /// What one axis contributes to the places of a parted pixel's texels, and to their mixing.
+  struct AxisPlaces {
+    std::array<int, 2> offsets;  // of the near and the far texel in their bricks
+    typename PixelPlaces<Level>::Part part;
+  };
+
+  /// Where a row's pixels lie.
   struct RowPlaces {
     PixelPlaces<Level> pairs;
-    std::vector<std::size_t> gathered;
-    std::vector<const std::byte*> texels;       // of the gathered ones' supports
-    std::vector<std::array<float, 3>> between;  // linear: where the gathered ones lie among them
+    std::vector<PartedTexels> parted;      // of the runs that are parted, in the row's order
+    std::vector<std::byte> parted_pairs;   // where these are gathered, so that they can be mixed
+    std::vector<const std::byte*> texels;  // nearest, cubic: of the supports of all pixels
   };
 
   void paint(Level* rgb, int count) const;
@@ -43,10 +51,10 @@ class TileSampler {
   void place_runs(const TilePlan& plan, std::size_t number, RowPlaces& places) const;
   void place_parted(const TilePlan& plan, const RowPath& path, const BrickRun& run,
                     RowPlaces& places) const;
+  static void gather_parted(RowPlaces& places);
   template <int width>
   void place_supports(const TilePlan& plan, const PictureRow& row, RowPlaces& places) const;
-  void sample_row(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
-  void mix_parted(const RowPlaces& places);
+  void sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places);
   void take_nearest(const RowPlaces& places);
   void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
 
@@ -56,9 +64,6 @@ class TileSampler {
   std::vector<std::byte> fill_value_;
   std::array<RowPlaces, 2> places_;  // of a row, and of the next
   std::vector<Level> row_;           // pixels of the tile's columns
-  PixelPlaces<Level> parted_places_;
-  std::vector<std::byte> parted_texels_;
-  std::vector<Level> parted_pixels_;
 };
 
 }  // namespace biotomy::reconstruct

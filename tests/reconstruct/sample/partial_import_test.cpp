@@ -132,8 +132,8 @@ TEST_F(APartialImport, RemovesFilesThatWereNotFinishedWhenItWasKilled) {
   store(take(), 1);
   const auto sample = folder_ / "out" / ".knee.partial" / "sample";
   std::filesystem::create_directories(sample / "volume.ome.zarr" / "0" / "c");
-  write_text(sample / "layers" / ".000002.tif.12-3", "half");
-  write_text(sample / "volume.ome.zarr" / "0" / "c" / ".0.12-4", "half");
+  write_text(sample / "layers" / ".000002.tif.999999999-3", "half");
+  write_text(sample / "volume.ome.zarr" / "0" / "c" / ".0.999999999-4", "half");
   take();
   EXPECT_THAT(names_in(sample / "layers"), ElementsAre("000001.tif"));
   EXPECT_TRUE(names_in(sample / "volume.ome.zarr" / "0" / "c").empty());

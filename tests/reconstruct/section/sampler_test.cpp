@@ -205,6 +205,26 @@ TEST(Sampler, AgreesWithTheDefinitionInLongRunsOf16Bits) {
   }
 }
 
+// Whole rows of pixels whose texels lie in two chunks, in layers and between them.
+TEST(Sampler, AgreesWithTheDefinitionBetweenChunks) {
+  for (const int bits : {8, 16}) {
+    MemorySource source;
+    source.bit_count = bits;
+    source.box = {{40, 300, 20}, {1.0, 1.0, 1.0}};
+    source.voxel = noise(source.box.size, source.most(), 21);
+    for (const double pixel : {1.0, 0.7}) {
+      const Plane plane = Plane::from_normal({-1, 0, 0}, {7.5, 0, 0});
+      const PixelGrid grid = grid_for(plane, source.box, pixel);
+      ASSERT_GE(grid.columns, 300);
+      Agreement agreement;
+      compare(source, Interpolation::linear, grid,
+              sample_grid(source, grid, Interpolation::linear, kBackground).image, agreement);
+      EXPECT_EQ(agreement.inside, grid.columns * grid.rows * 3);
+      EXPECT_LE(agreement.worst, 1);
+    }
+  }
+}
+
 TEST(Sampler, DoesNotDependOnHowMuchMemoryThereIs) {
   MemorySource source;
   source.box = {{60, 50, 40}, {10.0, 10.0, 10.0}};

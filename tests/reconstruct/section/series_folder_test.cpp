@@ -93,8 +93,8 @@ TEST_F(SeriesFolderTest, MayHoldFilms) {
 
 TEST_F(SeriesFolderTest, RemovesWhatAKilledRunLeftHalfWritten) {
   std::filesystem::create_directories(path_);
-  write_text(path_ / ".series.json.4711-0", "{");
-  write_text(path_ / ".001_+010.0deg.png.4711-13", "half a frame");
+  write_text(path_ / ".series.json.999999999-0", "{");
+  write_text(path_ / ".001_+010.0deg.png.999999999-13", "half a frame");
   open();
   EXPECT_THAT(names_in(path_), UnorderedElementsAre("series.json"));
 }
