@@ -127,6 +127,30 @@ describe("alarm and commands", () => {
     expect(page().querySelector('dialog [role="alert"]')?.textContent).toBe("the job is done");
   });
 
+  it("stays until the answer to a command has come, whatever is pressed", async () => {
+    let answer = (_: Response) => {};
+    fetched.mockReturnValue(new Promise((resolve) => (answer = resolve)));
+    show({ commands: ["pause"] });
+    await press("Pause");
+    const dialog = () => page().querySelector("dialog");
+    const send = (event: Event) => act(async () => void dialog()!.dispatchEvent(event));
+    await act(async () => {
+      page()
+        .querySelector("form")
+        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+    });
+    await send(new Event("cancel", { cancelable: true }));
+    await press("Cancel");
+    expect(dialog()).not.toBeNull();
+    await act(async () => {
+      answer(new Response(JSON.stringify({ message: "the step is finished" })));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    expect(dialog()?.textContent).toContain("the step is finished");
+    await send(new Event("cancel", { cancelable: true }));
+    expect(dialog()).toBeNull();
+  });
+
   it("does not claim to know what became of a command that nobody answered", async () => {
     fetched.mockRejectedValue(new TypeError("failed"));
     show({ commands: ["pause"] });
