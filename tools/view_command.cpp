@@ -54,8 +54,13 @@ void open_browser(const std::string& url) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes{};
+  posix_spawnattr_init(&attributes);
+  // In a session of its own: Ctrl-C is for the server, not for a browser that begins with it.
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
   pid_t process = 0;
-  ::posix_spawnp(&process, program.c_str(), &actions, nullptr, words.data(), environ);
+  ::posix_spawnp(&process, program.c_str(), &actions, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
 }
 

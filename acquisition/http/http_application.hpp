@@ -15,7 +15,7 @@ class HttpApplication {
   /// Which threads a request is for. It looks at the request alone, and at once.
   virtual Lane lane(const ApiRequest& request) const = 0;
 
-  /// Never throws: what goes wrong is a response with {"error": {"code", "message"}}.
+  /// What it throws is logged, and answered with status 500.
   virtual ApiResponse answer(const ApiRequest& request) const = 0;
 };
 

@@ -33,18 +33,21 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::steady_clock;
 
+// A history of ten thousand layers is a quick look that costs as much as a picture: nobody who asks
+// for it again and again takes the processor from the run.
+constexpr int kNice = 5;
 constexpr int kPicturesNice = 10;
 constexpr int kPicturesAtOnce = 3;  // times those of a second
-constexpr const char* kRetrySeconds = "1";
+constexpr std::chrono::seconds kRetry{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};  // after the system had no room
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\n"
     "Connection: close\r\n\r\n";
 
-std::string cannot_listen_text(const std::string& host, int port) {
-  return "cannot listen on " + host + ":" + std::to_string(port) +
-         ": another program has the port, or the address is not this computer's; see "
-         "service.listen";
+std::string cannot_listen_text(const std::string& host, int port, const error_code& why) {
+  return "cannot listen on " + host + ":" + std::to_string(port) + ", \"" + why.message() +
+         "\": perhaps another program has the port, or the address is not this computer's; choose "
+         "another";
 }
 
 /// Programs that the daemon starts must not hold its connections open.
@@ -80,10 +83,11 @@ tcp::acceptor listening_at(asio::io_context& context, const std::string& host, i
   if (!error) {
     for (const auto& entry : addresses) {
       tcp::acceptor acceptor(context);
-      if (!open_at(acceptor, entry.endpoint())) return acceptor;
+      error = open_at(acceptor, entry.endpoint());
+      if (!error) return acceptor;
     }
   }
-  throw ListenError(cannot_listen_text(host, port));
+  throw ListenError(cannot_listen_text(host, port, error));
 }
 
 std::string text_of(const asio::ip::address& address) {
@@ -93,10 +97,13 @@ std::string text_of(const asio::ip::address& address) {
   return address.to_string();
 }
 
-ApiResponse try_again(int status, const std::string& sentence) {
-  ApiResponse response = error_response(status, sentence);
-  response.headers["Retry-After"] = kRetrySeconds;
-  return response;
+ApiResponse answer_of(const HttpApplication& application, const ApiRequest& request) {
+  try {
+    return application.answer(request);
+  } catch (const std::exception& error) {
+    log_error("http", request.path + ": " + error.what());
+    return error_response(500, error.what());
+  }
 }
 
 /// Opens the file of a response, in the thread that answers.
@@ -137,8 +144,8 @@ class HttpServer::Listening : public ConnectionHost {
                              std::chrono::milliseconds(1000) / limits_.pictures_per_second),
         acceptor_(listening_at(context_, host, port)),
         accept_timer_(context_),
-        quick_("http-quick", limits_.quick.threads, limits_.quick.most_waiting, 0),
-        files_("http-files", limits_.files.threads, limits_.files.most_waiting, 0),
+        quick_("http-quick", limits_.quick.threads, limits_.quick.most_waiting, kNice),
+        files_("http-files", limits_.files.threads, limits_.files.most_waiting, kNice),
         pictures_("http-pictures", limits_.pictures.threads, limits_.pictures.most_waiting,
                   kPicturesNice) {
     accept();
@@ -169,7 +176,8 @@ class HttpServer::Listening : public ConnectionHost {
     const Lane kind = application_.lane(request);
     if (kind == Lane::pictures) {
       if (pictures_of_clients_.take(request.client, steady_clock::now())) {
-        return try_again(429, "too many pictures are asked from this address: ask a little later");
+        return later_response(
+            429, "too many pictures are asked from this address: ask a little later", kRetry);
       }
     }
     const auto asked = std::make_shared<ApiRequest>(std::move(request));
@@ -177,12 +185,13 @@ class HttpServer::Listening : public ConnectionHost {
         {.run =
              [this, asked, answered = std::move(answered)] {
                auto ready =
-                   std::make_shared<PreparedResponse>(prepared(application_.answer(*asked)));
+                   std::make_shared<PreparedResponse>(prepared(answer_of(application_, *asked)));
                asio::post(context_, [ready, answered] { answered(std::move(*ready)); });
              },
          .is_useless = asked->client_left});
     if (taken) return std::nullopt;
-    return try_again(503, "too much is asked of this computer at once: ask a little later");
+    return later_response(503, "too much is asked of this computer at once: ask a little later",
+                          kRetry);
   }
 
   void read_file(int file, std::uint64_t offset, std::size_t bytes,
@@ -235,12 +244,16 @@ class HttpServer::Listening : public ConnectionHost {
       if (ending_) return;
       if (error) {
         // There are too many open files, for one: the next moment may be better.
+        if (!std::exchange(no_room_, true)) {
+          log_warning("http", "cannot take a connection, and tries on: " + error.message());
+        }
         accept_timer_.expires_after(kAcceptPause);
         accept_timer_.async_wait([this](const error_code& cancelled) {
           if (!cancelled) accept();
         });
         return;
       }
+      no_room_ = false;
       welcome(std::move(socket));
       accept();
     });
@@ -275,6 +288,7 @@ class HttpServer::Listening : public ConnectionHost {
   asio::executor_work_guard<asio::io_context::executor_type> keep_running_{context_.get_executor()};
   // Only the server's own thread touches these, until it has ended.
   bool ending_ = false;
+  bool no_room_ = false;  ///< for the last connection; it is logged
   RateLimit pictures_of_clients_;
   tcp::acceptor acceptor_;
   asio::steady_timer accept_timer_;

@@ -11,4 +11,22 @@ ApiResponse error_response(int status, const std::string& message) {
           .body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
+ApiResponse later_response(int status, const std::string& message, std::chrono::seconds after) {
+  ApiResponse response = error_response(status, message);
+  response.headers["Retry-After"] = std::to_string(after.count());
+  return response;
+}
+
+ApiResponse wrong_method(const ApiRequest& request, const std::string& allowed) {
+  ApiResponse response =
+      error_response(405, request.path + " takes " + allowed + ", not " + request.method);
+  response.headers["Allow"] = allowed;
+  return response;
+}
+
+bool has_already(const ApiRequest& request, const std::string& etag) {
+  const std::string& known = request.if_none_match;
+  return known == "*" || known.find(etag) != std::string::npos;
+}
+
 }  // namespace biotomy::acquisition

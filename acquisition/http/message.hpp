@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -19,6 +20,7 @@ struct ApiRequest {
   std::string origin = {};
   std::string range = {};
   std::string if_none_match = {};
+  std::string if_range = {};
   std::string accept_encoding = {};
   std::string body = {};
   std::string client = {};  ///< the address that it came from
@@ -59,5 +61,14 @@ enum class Lane {
 
 /// {"error": {"code": …, "message": …}}
 ApiResponse error_response(int status, const std::string& message);
+
+/// The same of what may be asked again after a while, with the header Retry-After.
+ApiResponse later_response(int status, const std::string& message, std::chrono::seconds after);
+
+/// 405: the method is none of `allowed`, "GET, POST".
+ApiResponse wrong_method(const ApiRequest& request, const std::string& allowed);
+
+/// Whether the client has exactly this content already, so that 304 is its answer.
+bool has_already(const ApiRequest& request, const std::string& etag);
 
 }  // namespace biotomy::acquisition

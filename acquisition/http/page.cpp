@@ -61,11 +61,7 @@ bool Page::answers(const ApiRequest& request) const {
 }
 
 ApiResponse Page::answer(const ApiRequest& request) const {
-  if (request.method != "GET") {
-    ApiResponse refused = error_response(405, request.path + " takes GET, not " + request.method);
-    refused.headers["Allow"] = "GET";
-    return refused;
-  }
+  if (request.method != "GET") return wrong_method(request, "GET");
   const bool is_asset = request.path.starts_with(kAssets);
   const auto found = files_.find(request.path == "/" ? kIndex : request.path);
   if (found == files_.end()) {
@@ -77,7 +73,7 @@ ApiResponse Page::answer(const ApiRequest& request) const {
   response.headers["ETag"] = file.tag;
   response.headers["Vary"] = "Accept-Encoding";
   response.headers["Cache-Control"] = is_asset ? "public, max-age=31536000, immutable" : "no-cache";
-  if (request.if_none_match.find(file.tag) != std::string::npos) {
+  if (has_already(request, file.tag)) {
     response.status = 304;
   } else if (request.accept_encoding.find("gzip") != std::string::npos) {
     response.headers["Content-Encoding"] = "gzip";

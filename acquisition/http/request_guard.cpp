@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <memory>
 #include <utility>
 
 #include <arpa/inet.h>
-#include <netdb.h>
-#include <unistd.h>
+
+#include "acquisition/http/lower_case.hpp"
+#include "acquisition/http/own_host_names.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -26,13 +26,6 @@ bool is_address(const std::string& name) {
          ::inet_pton(AF_INET6, name.c_str(), address.data()) == 1;
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 bool is_port(std::string_view text) {
   return text.size() <= 5 && std::all_of(text.begin(), text.end(),
                                          [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -46,8 +39,8 @@ bool is_volume(const ApiRequest& request) {
 /// The origin of the page that this server serves under the name by which it was asked; by https
 /// where a proxy stands before it.
 bool is_own_origin(const ApiRequest& request) {
-  const std::string origin = lower(request.origin);
-  const std::string host = lower(request.host);
+  const std::string origin = lower_case(request.origin);
+  const std::string host = lower_case(request.host);
   return origin == "http://" + host || origin == "https://" + host;
 }
 
@@ -73,27 +66,13 @@ std::optional<std::string> host_name(std::string_view host) {
   if (!rest.empty() && (rest.front() != ':' || !is_port(rest.substr(1)))) return std::nullopt;
   if (name.ends_with('.')) name.remove_suffix(1);
   if (name.empty() || name.size() > kLongestName) return std::nullopt;
-  return lower(name);
-}
-
-std::vector<std::string> own_host_names() {
-  std::array<char, kLongestName + 1> buffer{};
-  if (::gethostname(buffer.data(), buffer.size() - 1) != 0 || buffer[0] == '\0') return {};
-  const std::string name = lower(buffer.data());
-  std::vector<std::string> names{name, name + ".local"};
-  addrinfo hints{};
-  hints.ai_flags = AI_CANONNAME;
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(name.c_str(), nullptr, &hints, &found) != 0) return names;
-  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> answer(found, ::freeaddrinfo);
-  if (found->ai_canonname != nullptr) names.push_back(lower(found->ai_canonname));
-  return names;
+  return lower_case(name);
 }
 
 RequestGuard::RequestGuard(GuardSettings settings) : settings_(std::move(settings)) {
-  for (std::string& name : settings_.hosts) name = lower(name);
+  for (std::string& name : settings_.hosts) name = lower_case(name);
   for (std::string& name : own_host_names()) settings_.hosts.push_back(std::move(name));
-  settings_.neuroglancer_origin = lower(settings_.neuroglancer_origin);
+  settings_.neuroglancer_origin = lower_case(settings_.neuroglancer_origin);
 }
 
 bool RequestGuard::knows_host(std::string_view host) const {
@@ -105,7 +84,7 @@ bool RequestGuard::knows_host(std::string_view host) const {
 
 bool RequestGuard::is_neuroglancer(const ApiRequest& request) const {
   return is_volume(request) && !settings_.neuroglancer_origin.empty() &&
-         lower(request.origin) == settings_.neuroglancer_origin;
+         lower_case(request.origin) == settings_.neuroglancer_origin;
 }
 
 std::optional<ApiResponse> RequestGuard::answer(const ApiRequest& request) const {

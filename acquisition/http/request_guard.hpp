@@ -44,7 +44,4 @@ class RequestGuard {
 /// Nothing when it is none.
 std::optional<std::string> host_name(std::string_view host);
 
-/// The names that this computer has: its own, that with its domain, and that with ".local".
-std::vector<std::string> own_host_names();
-
 }  // namespace biotomy::acquisition

@@ -129,6 +129,7 @@ ReceivedRequest RequestReader::request() {
   request.origin = state.header(http::field::origin);
   request.range = state.header(http::field::range);
   request.if_none_match = state.header(http::field::if_none_match);
+  request.if_range = state.header(http::field::if_range);
   request.accept_encoding = state.header(http::field::accept_encoding);
   request.host = state.header(http::field::host);
   request.sec_fetch_site = state.header("Sec-Fetch-Site");

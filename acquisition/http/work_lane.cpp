@@ -3,26 +3,10 @@
 #include <utility>
 
 #include <pthread.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
+
+#include "acquisition/low_priority.hpp"
 
 namespace biotomy::acquisition {
-namespace {
-
-// Of the kernel's linux/ioprio.h, which not every Debian installs for programs.
-constexpr int kIoPriorityOfAThread = 1;
-constexpr int kIoBestEffortLast = (2 << 13) | 7;
-
-void lower_priority(int nice) {
-  if (nice <= 0) return;
-  const auto thread = static_cast<id_t>(::gettid());
-  // Without either the work is done as well, only with less regard for the rest.
-  ::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + nice);
-  ::syscall(SYS_ioprio_set, kIoPriorityOfAThread, thread, kIoBestEffortLast);
-}
-
-}  // namespace
 
 WorkLane::WorkLane(const std::string& name, int threads, std::size_t most_waiting, int nice)
     : most_waiting_(most_waiting) {
@@ -62,7 +46,7 @@ void WorkLane::go_on(Task task) {
 
 void WorkLane::work(const std::string& name, int nice) {
   ::pthread_setname_np(::pthread_self(), name.c_str());
-  lower_priority(nice);
+  if (nice > 0) lower_priority(nice, DiskShare::last);
   while (true) {
     Task task;
     {

@@ -37,11 +37,11 @@ std::optional<std::string> reason_of(const std::string& body) {
 }
 
 ApiResponse refusal(const Ruling& ruling) {
+  if (ruling.status == 429) {
+    return later_response(ruling.status, ruling.sentence, ruling.retry_after);
+  }
   ApiResponse response = error_response(ruling.status, ruling.sentence);
   if (ruling.status == 401) response.headers["WWW-Authenticate"] = "Bearer";
-  if (ruling.status == 429) {
-    response.headers["Retry-After"] = std::to_string(ruling.retry_after.count());
-  }
   return response;
 }
 
@@ -67,15 +67,6 @@ Lane Api::lane(const ApiRequest& request) const {
 }
 
 ApiResponse Api::answer(const ApiRequest& request) const {
-  try {
-    return route(request);
-  } catch (const std::exception& error) {
-    log_error("http", request.path + ": " + error.what());
-    return error_response(500, error.what());
-  }
-}
-
-ApiResponse Api::route(const ApiRequest& request) const {
   if (request.path.starts_with(kControl)) {
     return control(request.path.substr(kControl.size()), request);
   }

@@ -36,12 +36,9 @@ class Api : public HttpApplication {
   explicit Api(ApiParts parts, std::chrono::milliseconds reply_time_out = std::chrono::seconds(5));
 
   Lane lane(const ApiRequest& request) const override;
-
-  /// Never throws: what goes wrong is a response with {"error": {"code", "message"}}.
   ApiResponse answer(const ApiRequest& request) const override;
 
  private:
-  ApiResponse route(const ApiRequest& request) const;
   ApiResponse sample(const ApiRequest& request) const;
   ApiResponse read(const ApiRequest& request) const;
   ApiResponse events(const ApiRequest& request) const;

@@ -12,11 +12,4 @@ ApiResponse event_response(std::shared_ptr<EventSubscription> subscription) {
   return {.content_type = "text/event-stream", .events = std::move(subscription)};
 }
 
-ApiResponse wrong_method(const ApiRequest& request, const char* allowed) {
-  ApiResponse response =
-      error_response(405, request.path + " takes " + allowed + ", not " + request.method);
-  response.headers["Allow"] = allowed;
-  return response;
-}
-
 }  // namespace biotomy::acquisition

@@ -24,7 +24,4 @@ inline bool is_one_of(std::string_view path, std::initializer_list<std::string_v
 ApiResponse json_response(std::string body);
 ApiResponse event_response(std::shared_ptr<EventSubscription> subscription);
 
-/// 405, with what the path takes instead.
-ApiResponse wrong_method(const ApiRequest& request, const char* allowed);
-
 }  // namespace biotomy::acquisition

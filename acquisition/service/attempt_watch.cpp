@@ -1,5 +1,7 @@
 #include "acquisition/service/attempt_watch.hpp"
 
+#include <array>
+#include <fstream>
 #include <utility>
 
 #include "acquisition/log.hpp"
@@ -10,6 +12,7 @@ namespace biotomy::acquisition {
 namespace {
 
 constexpr std::int64_t kMostAtOnce = 1000;
+constexpr std::size_t kIndexHeader = 48;  // bytes; see "WAL-Index Format" of SQLite's documentation
 
 }  // namespace
 
@@ -34,7 +37,12 @@ std::string AttemptWatch::files_state() const {
     const auto written = std::filesystem::last_write_time(file, none);
     state += std::to_string(written.time_since_epoch().count()) + " ";
   }
-  return state;
+  // What is in the log may not be committed yet, and changes none of these when it is: the
+  // beginning of the log's index does.
+  std::array<char, kIndexHeader> header{};
+  std::ifstream index(journal_.string() + "-shm", std::ios::binary);
+  index.read(header.data(), header.size());
+  return state.append(header.data(), static_cast<std::size_t>(index.gcount()));
 }
 
 std::vector<AttemptNote> AttemptWatch::look() {

@@ -11,7 +11,7 @@
 namespace biotomy::acquisition {
 
 /// Looks again and again at the journal for attempts that are new in it. As long as nothing was
-/// written to the journal's files, it does not open them.
+/// written to the journal's files, it asks SQLite nothing.
 class AttemptWatch {
  public:
   /// Attempts that are in the journal by now are not new. The journal need not be there yet.

@@ -28,6 +28,7 @@
 #include "acquisition/service/counted_stage.hpp"
 #include "acquisition/service/devices.hpp"
 #include "acquisition/service/event_source.hpp"
+#include "acquisition/service/helping_threads.hpp"
 #include "acquisition/service/liveness.hpp"
 #include "acquisition/service/metrics/metrics_page.hpp"
 #include "acquisition/service/metrics/run_metrics.hpp"
@@ -207,6 +208,7 @@ void end_if_control_hangs(const Liveness& liveness) {
 
 int run_daemon(const Configuration& configuration) {
   const StopSignals signals;
+  start_helping_threads();
   ServiceManager systemd;
   warn_of_short_watchdog(systemd, configuration);
   const JobPlan& plan = configuration.job.plan;

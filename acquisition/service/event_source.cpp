@@ -1,6 +1,5 @@
 #include "acquisition/service/event_source.hpp"
 
-#include <chrono>
 #include <exception>
 #include <utility>
 
@@ -14,13 +13,13 @@ namespace biotomy::acquisition {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{200};
-constexpr int kLooksAtSample = 3;  // of which it takes one: files are looked at for it
-constexpr int kLooksAlive = 25;    // the same for the sign of life: every 5 s
+constexpr int kLooksAtSample = 3;          // of which it takes one: files are looked at for it
+constexpr std::chrono::seconds kAlive{5};  // between signs of life, however long a look takes
 
 }  // namespace
 
-EventSource::EventSource(EventFeed& feed, EventSights sights)
-    : feed_(feed), sights_(std::move(sights)) {
+EventSource::EventSource(EventFeed& feed, EventSights sights, Clock clock)
+    : feed_(feed), sights_(std::move(sights)), clock_(std::move(clock)) {
   if (sights_.attempts != nullptr) {
     const auto known = sights_.attempts->last();
     feed_.begin_after(known ? known->id : 0);
@@ -34,6 +33,7 @@ EventSource::~EventSource() {
 
 void EventSource::watch(const std::stop_token& stop) {
   ::pthread_setname_np(::pthread_self(), "events");
+  auto alive = clock_();
   for (int look = 0; !stop.stop_requested(); ++look) {
     try {
       tell_state(sights_.status, "status", told_status_);
@@ -45,7 +45,10 @@ void EventSource::watch(const std::stop_token& stop) {
       if (complaint_ != error.what()) log_warning("events", error.what());
       complaint_ = error.what();
     }
-    if (look % kLooksAlive == kLooksAlive - 1) feed_.tell_alive();
+    if (const auto now = clock_(); now - alive >= kAlive) {
+      alive = now;
+      feed_.tell_alive();
+    }
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, stop, kLook, [] { return false; });
   }

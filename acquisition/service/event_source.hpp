@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -24,8 +25,10 @@ struct EventSights {
 /// what has changed. Nobody waits for it: not the control thread, whose status it only looks at.
 class EventSource {
  public:
+  using Clock = std::function<std::chrono::steady_clock::time_point()>;
+
   /// All outlive it.
-  EventSource(EventFeed& feed, EventSights sights);
+  EventSource(EventFeed& feed, EventSights sights, Clock clock = std::chrono::steady_clock::now);
   ~EventSource();
   EventSource(const EventSource&) = delete;
   EventSource& operator=(const EventSource&) = delete;
@@ -37,6 +40,7 @@ class EventSource {
 
   EventFeed& feed_;
   EventSights sights_;
+  Clock clock_;
   std::string told_status_;
   std::string told_sample_;
   std::string complaint_;  ///< the last that was logged

@@ -19,6 +19,7 @@
 #include "acquisition/records/sample_lock.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "acquisition/service/credentials.hpp"
+#include "acquisition/service/existing_part.hpp"
 #include "acquisition/service/notifications/channels.hpp"
 
 namespace biotomy::acquisition {
@@ -40,14 +41,6 @@ std::optional<std::string> folder_complaint(const fs::path& folder) {
   if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return std::nullopt;
   return "this user may not write into " + folder.string() +
          ": chown it to the daemon's user, or name another";
-}
-
-/// The folder that is there already of those that a path leads through.
-fs::path existing_part(const fs::path& path) {
-  fs::path part = path;
-  std::error_code error;
-  while (!fs::exists(part, error) && part.has_relative_path()) part = part.parent_path();
-  return part;
 }
 
 class RecordsCheck {

@@ -5,20 +5,13 @@
 
 #include <sys/stat.h>
 
+#include "acquisition/service/existing_part.hpp"
+#include "acquisition/viewer/viewer_settings.hpp"
+
 namespace biotomy::acquisition {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kLeftFree = std::uint64_t{1} << 30U;
-
-fs::path existing_part(fs::path path) {
-  std::error_code error;
-  while (!fs::exists(path, error) && path.has_parent_path() && path != path.parent_path()) {
-    path = path.parent_path();
-  }
-  return path;
-}
 
 std::optional<dev_t> disk_of(const fs::path& path) {
   struct stat found {};

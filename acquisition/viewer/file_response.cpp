@@ -57,7 +57,8 @@ ApiResponse file_response(const ApiRequest& request, const std::filesystem::path
     response.status = 304;
     return response;
   }
-  const std::optional<ByteRange> range = byte_range(request.range, size);
+  const bool of_another = !request.if_range.empty() && request.if_range != etag;
+  const std::optional<ByteRange> range = byte_range(of_another ? "" : request.range, size);
   if (!range) {
     ApiResponse refusal = error_response(416, "the file has " + std::to_string(size) + " bytes");
     refusal.headers["Content-Range"] = "bytes */" + std::to_string(size);

@@ -23,6 +23,7 @@ struct ByteRange {
 std::optional<ByteRange> byte_range(const std::string& header, std::uint64_t size);
 
 /// A file that is there, whole or the part that was asked for, with its tag: 200, 206, 304 or 416.
+/// Whole, too, where the part was to go on with another content (If-Range).
 ApiResponse file_response(const ApiRequest& request, const std::filesystem::path& file,
                           const std::string& content_type);
 

@@ -29,7 +29,6 @@ constexpr std::size_t kMadeBytes = std::size_t{64} << 20;
 constexpr int kWidest = 4096;
 constexpr int kQuality = 90;
 constexpr int kMostShift = 20;
-constexpr std::size_t kDigitsInAddress = 8;
 
 /// A tile whose gradient is not stronger than its noise tells nothing.
 constexpr double kLeastSignal = 1.0;

@@ -30,10 +30,8 @@ using reconstruct::SampleFolder;
 
 constexpr std::int64_t kDefaultLimit = 100;
 constexpr std::int64_t kLargestLimit = 1000;
-constexpr std::int64_t kLargestLayer = 999999;
 constexpr std::int64_t kLargestId = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kMostMetrics = 64;
-constexpr std::size_t kDigitsInAddress = 8;
 constexpr std::string_view kRejected = "rejected/";
 
 ApiResponse json_response(const ordered_json& document) {
@@ -90,13 +88,10 @@ ordered_json with_image(const AttemptNote& note, const SampleFolder& sample,
 
 std::vector<std::string> names_in(const std::string& list) {
   std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t comma = std::min(list.find(',', begin), list.size());
-    std::string name = list.substr(begin, comma - begin);
+  for (std::string& name : words_between(list, ',')) {
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
       names.push_back(std::move(name));
     }
-    begin = comma + 1;
   }
   if (names.size() > kMostMetrics) {
     throw reconstruct::InvalidRequest("metrics: at most " + std::to_string(kMostMetrics) +

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
+#include <string>
 
 #include "acquisition/http/message.hpp"
 #include "acquisition/records/journal_reader.hpp"
@@ -11,6 +11,11 @@
 #include "acquisition/viewer/live_sample.hpp"
 
 namespace biotomy::acquisition {
+
+inline constexpr std::int64_t kLargestLayer = 999999;
+
+/// Letters of a layer's hash in the address of its image, by which that of another content differs.
+inline constexpr std::size_t kDigitsInAddress = 8;
 
 /// What is written down of a sample's layers and of the attempts at them: /layers, /layers/N,
 /// /rejected and /history. A sample without a journal has its layers, and no attempts. Every call

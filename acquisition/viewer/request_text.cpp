@@ -1,5 +1,6 @@
 #include "acquisition/viewer/request_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "reconstruct/errors.hpp"
@@ -25,9 +26,14 @@ std::int64_t number_in(const ApiRequest& request, const std::string& name, std::
   return *value;
 }
 
-bool has_already(const ApiRequest& request, const std::string& etag) {
-  const std::string& known = request.if_none_match;
-  return known == "*" || known.find(etag) != std::string::npos;
+std::vector<std::string> words_between(std::string_view text, char separator) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    words.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
 }
 
 }  // namespace biotomy::acquisition

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "acquisition/http/message.hpp"
 
@@ -19,7 +19,7 @@ std::optional<std::int64_t> whole_number(std::string_view text, std::int64_t lea
 std::int64_t number_in(const ApiRequest& request, const std::string& name, std::int64_t fallback,
                        std::int64_t least, std::int64_t most, const std::string& wanted);
 
-/// Whether the client has exactly this content already.
-bool has_already(const ApiRequest& request, const std::string& etag);
+/// The words of a list, empty ones too: "a//b" by '/' is "a", "", "b".
+std::vector<std::string> words_between(std::string_view text, char separator);
 
 }  // namespace biotomy::acquisition

@@ -30,43 +30,15 @@
 namespace biotomy::acquisition {
 namespace {
 
-constexpr const char* kApi = "/api/v1/";
-constexpr std::int64_t kLargestLayer = 999999;
+constexpr std::string_view kApi = "/api/v1/";
 constexpr std::int64_t kLargestTile = 1'000'000;
 
 constexpr std::string_view kVolume = "/volume.ome.zarr/";
 
 /// The words of a path below kApi, or none of another one.
 std::vector<std::string> words_of(const std::string& path) {
-  std::vector<std::string> words;
-  if (!path.starts_with(kApi)) return words;
-  for (std::size_t begin = std::string_view(kApi).size(); begin <= path.size();) {
-    const std::size_t slash = std::min(path.find('/', begin), path.size());
-    words.push_back(path.substr(begin, slash - begin));
-    begin = slash + 1;
-  }
-  return words;
-}
-
-class WrongMethod : public Refusal {
- public:
-  WrongMethod(const ApiRequest& request, std::string allowed)
-      : Refusal(405, request.path + " takes " + allowed + ", not " + request.method),
-        allowed_(std::move(allowed)) {}
-
-  const std::string& allowed() const { return allowed_; }
-
- private:
-  std::string allowed_;
-};
-
-void require_method(const ApiRequest& request, std::initializer_list<std::string_view> allowed) {
-  if (std::find(allowed.begin(), allowed.end(), request.method) != allowed.end()) return;
-  std::string list;
-  for (const std::string_view method : allowed) {
-    list += (list.empty() ? "" : ", ") + std::string(method);
-  }
-  throw WrongMethod(request, list);
+  if (!path.starts_with(kApi)) return {};
+  return words_between(std::string_view(path).substr(kApi.size()), '/');
 }
 
 [[noreturn]] void refuse_path(const std::string& path) {
@@ -139,15 +111,15 @@ struct SampleApi::State {
   ApiResponse answer_exports(const std::vector<std::string>& words,
                              const ApiRequest& request) const {
     if (words.empty()) {
-      require_method(request, {"GET", "POST"});
-      return request.method == "POST" ? exports.add(request) : exports.list();
+      if (request.method == "POST") return exports.add(request);
+      return request.method == "GET" ? exports.list() : wrong_method(request, "GET, POST");
     }
     if (words.size() == 1) {
-      require_method(request, {"GET", "DELETE"});
-      return request.method == "DELETE" ? exports.remove(words[0]) : exports.one(words[0]);
+      if (request.method == "DELETE") return exports.remove(words[0]);
+      return request.method == "GET" ? exports.one(words[0]) : wrong_method(request, "GET, DELETE");
     }
     if (words.size() != 3 || words[1] != "files") refuse_path(request.path);
-    require_method(request, {"GET"});
+    if (request.method != "GET") return wrong_method(request, "GET");
     return exports.file(words[0], words[2], request);
   }
 
@@ -156,7 +128,7 @@ struct SampleApi::State {
     const std::vector<std::string> rest(words.empty() ? words.begin() : words.begin() + 1,
                                         words.end());
     const std::string& first = words.empty() ? request.path : words[0];
-    if (first != "exports") require_method(request, {"GET"});
+    if (first != "exports" && request.method != "GET") return wrong_method(request, "GET");
     // A page that is opened before a job's first layer asks for its lists: there is nothing in
     // them.
     const bool is_list = rest.empty() && (first == "layers" || first == "rejected" ||
@@ -205,8 +177,9 @@ bool SampleApi::answers(const ApiRequest& request) const {
 Lane SampleApi::lane(const ApiRequest& request) {
   const std::vector<std::string> words = words_of(request.path);
   if (words.empty()) return Lane::files;
-  const bool draws =
-      (words[0] == "section" && words.size() == 1) || (words[0] == "layers" && words.size() > 2);
+  const bool draws = (words[0] == "section" && words.size() == 1) ||
+                     (words[0] == "series" && words.back() == "frame") ||
+                     (words[0] == "layers" && words.size() > 2);
   if (draws) return Lane::pictures;
   const bool sends =
       (words[0] == "rejected" && words.size() > 1) || (words[0] == "exports" && words.size() > 2);
@@ -220,16 +193,13 @@ bool SampleApi::is_command(const ApiRequest& request) {
 ApiResponse SampleApi::answer(const ApiRequest& request) const {
   try {
     return state_->route(request);
-  } catch (const WrongMethod& wrong) {
-    ApiResponse response = error_response(wrong.status(), wrong.what());
-    response.headers["Allow"] = wrong.allowed();
-    return response;
   } catch (const Refusal& refusal) {
     return error_response(refusal.status(), refusal.what());
   } catch (const reconstruct::InvalidRequest& error) {
     return error_response(400, error.what());
   } catch (const reconstruct::Interrupted& error) {
-    return error_response(503, error.what());
+    // Too much for one answer. Not 503: who waits would ask for the same again and again.
+    return error_response(413, error.what());
   } catch (const reconstruct::SampleError& error) {
     return error_response(422, error.what());
   } catch (const JournalError& error) {

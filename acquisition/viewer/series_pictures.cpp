@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "acquisition/viewer/refusal.hpp"
 #include "acquisition/viewer/request_text.hpp"
 #include "acquisition/viewer/series_query.hpp"
 #include "acquisition/viewer/time_allowed.hpp"
@@ -16,8 +15,6 @@ namespace {
 
 using nlohmann::ordered_json;
 using reconstruct::SeriesFrame;
-
-constexpr std::size_t kMostFrames = 10'000;
 
 bool cuts(const SeriesFrame& frame, const reconstruct::Cuboid& cuboid) {
   return contact(frame.plane, cuboid).vertices.size() >= 3;
@@ -49,12 +46,6 @@ std::shared_ptr<const SeriesPictures::Plan> SeriesPictures::plan(const ApiReques
   const SeriesQuery asked = series_query(query, {"index"});
   const reconstruct::Cuboid& cuboid = view.sample.volume.cuboid();
   auto made = std::make_shared<Plan>(Plan{series_of(asked, cuboid), asked.style.parameters.pixel});
-  if (made->series.frames.size() > kMostFrames) {
-    throw Refusal(413, "the series has " + std::to_string(made->series.frames.size()) +
-                           " frames, and " + std::to_string(kMostFrames) +
-                           " are the most that is shown: make its step larger, or have it written "
-                           "by POST /api/v1/exports");
-  }
   if (asked.style.fit) {
     const reconstruct::SectionStyle style = style_of(asked, cuboid);
     const reconstruct::StopRequested over = time_allowed(request);

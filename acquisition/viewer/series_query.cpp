@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "acquisition/viewer/command_line.hpp"
+#include "acquisition/viewer/refusal.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/excerpt.hpp"
 
@@ -15,6 +16,7 @@ using reconstruct::SectionParameters;
 constexpr const char* kRotate = "rotate";
 constexpr const char* kTranslate = "translate";
 constexpr const char* kRate = "25";
+constexpr std::size_t kMostFrames = 10'000;
 
 std::string series_background() {
   const Colour& colour = reconstruct::kGreyBlue;
@@ -88,7 +90,14 @@ reconstruct::Series series_of(const SeriesQuery& query, const reconstruct::Cuboi
       reconstruct::section_choices("", query.style.parameters);
   const auto parse =
       query.kind == kRotate ? &reconstruct::parse_rotation : &reconstruct::parse_translation;
-  return parse("", query.series, chosen.unit, chosen.basis, cuboid);
+  reconstruct::Series series = parse("", query.series, chosen.unit, chosen.basis, cuboid);
+  if (series.frames.size() > kMostFrames) {
+    throw Refusal(413, "the series has " + std::to_string(series.frames.size()) + " frames, and " +
+                           std::to_string(kMostFrames) +
+                           " are the most that are shown or exported: make its step larger, or "
+                           "run biotomy series");
+  }
+  return series;
 }
 
 reconstruct::SectionStyle style_of(const SeriesQuery& query, const reconstruct::Cuboid& cuboid) {

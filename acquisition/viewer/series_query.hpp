@@ -21,8 +21,11 @@ struct SeriesQuery {
 /// `others` are parameters that are known beside. Throws InvalidRequest.
 SeriesQuery series_query(const Query& query, std::initializer_list<std::string_view> others = {});
 
-/// As `biotomy series` understands it. Throws InvalidRequest.
+/// As `biotomy series` understands it. Throws InvalidRequest; Refusal where it has more than ten
+/// thousand frames.
 reconstruct::Series series_of(const SeriesQuery& query, const reconstruct::Cuboid& cuboid);
+
+/// Throws InvalidRequest.
 reconstruct::SectionStyle style_of(const SeriesQuery& query, const reconstruct::Cuboid& cuboid);
 
 /// The command line that makes the frames, and the film, without regard to `fit`, ready for a

@@ -9,12 +9,15 @@
 
 namespace biotomy::acquisition {
 
+/// Of a disk on which nothing but exports needs room.
+inline constexpr std::uint64_t kLeftFree = std::uint64_t{1} << 30U;
+
 /// How much of the computer looking at a sample may take, and who may.
 struct ViewerSettings {
   std::size_t cache_bytes = 256'000'000;    ///< of decoded chunks, at most
   std::size_t decoded_bytes = 160'000'000;  ///< of decoded layers, at most, or one layer
   /// That sample one section. 1: it is sampled by the thread that asks, with that thread's
-  /// priority; others that help have the priority of the process.
+  /// priority; others that help have the priority of whoever needed them first.
   int threads = 1;
   /// Whether somebody may write the sample's journal meanwhile.
   JournalReader::Journal journal = JournalReader::Journal::in_use;

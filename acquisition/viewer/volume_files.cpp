@@ -6,6 +6,7 @@
 
 #include "acquisition/viewer/file_response.hpp"
 #include "acquisition/viewer/refusal.hpp"
+#include "acquisition/viewer/request_text.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -18,16 +19,6 @@ constexpr std::size_t kMostDigits = 9;
 bool is_number(std::string_view word) {
   return !word.empty() && word.size() <= kMostDigits &&
          word.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
-std::vector<std::string_view> words_of(std::string_view name) {
-  std::vector<std::string_view> words;
-  for (std::size_t begin = 0; begin <= name.size();) {
-    const std::size_t slash = std::min(name.find('/', begin), name.size());
-    words.push_back(name.substr(begin, slash - begin));
-    begin = slash + 1;
-  }
-  return words;
 }
 
 /// Where no link on the way leads out of the volume.
@@ -44,7 +35,7 @@ bool lies_in(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 bool is_volume_name(const std::string& name) {
-  const std::vector<std::string_view> words = words_of(name);
+  const std::vector<std::string> words = words_between(name, '/');
   if (words.back() == kMetadata) {
     return words.size() == 1 || (words.size() == 2 && is_number(words[0]));
   }

@@ -3,8 +3,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -14,16 +12,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/file_content.hpp"
+
 namespace biotomy::tests {
 
 namespace {
 
 constexpr std::chrono::milliseconds kPollInterval(10);
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 int exit_code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -84,6 +86,33 @@ TEST_F(CommandLine, ShowsASampleUntilItIsInterrupted) {
     view.send(signal);
     EXPECT_EQ(view.wait(std::chrono::seconds(60)).exit_code, 0);
   }
+}
+
+TEST_F(CommandLine, OpensABrowserThatGoesOnAfterCtrlC) {
+  const fs::path browser = folder_ / "xdg-open";
+  const fs::path seen = folder_ / "seen";
+  // Its own number, its session's, and what it is to open.
+  std::ofstream(browser) << "#!/bin/sh\necho $$ $(cut -d ' ' -f 6 /proc/$$/stat) $1 > '"
+                         << (folder_ / "begun").string() << "'\nmv '"
+                         << (folder_ / "begun").string() << "' '" << seen.string() << "'\n";
+  fs::permissions(browser, fs::perms::owner_all);
+  const std::string path = "PATH=" + folder_.path().string() + ":/usr/bin:/bin";
+  ChildProcess view({"/usr/bin/env", path, "DISPLAY=:9", BIOTOMY_TOOL, "view", sample()},
+                    folder_.path());
+  const std::string address = view.wait_for("http://", std::chrono::seconds(60));
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!fs::exists(seen) && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::ifstream words(seen);
+  pid_t process = 0;
+  pid_t session = 0;
+  std::string url;
+  ASSERT_TRUE(words >> process >> session >> url);
+  EXPECT_EQ(session, process);
+  EXPECT_EQ(url, "http://" + address.substr(0, address.find(' ')));
+  view.send(SIGINT);
+  EXPECT_EQ(view.wait(std::chrono::seconds(60)).exit_code, 0);
 }
 
 TEST_F(CommandLine, ShowsASampleToNoOtherComputerUnasked) {

@@ -1,12 +1,12 @@
 // What is installed beside the programs: held against systemd's own tools, where they are.
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tests/file_content.hpp"
 #include "tests/integration/child_process.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -14,11 +14,6 @@ namespace biotomy::tests {
 namespace {
 
 using testing::HasSubstr;
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 struct Packaging : testing::Test {
   TemporaryFolder folder;

@@ -1,7 +1,5 @@
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,6 +12,7 @@
 #include "acquisition/viewer/sample_api.hpp"
 #include "tests/acquisition/viewer/exports/archive_content.hpp"
 #include "tests/faults/small_sample.hpp"
+#include "tests/file_content.hpp"
 #include "tests/integration/child_process.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -24,11 +23,6 @@ namespace fs = std::filesystem;
 
 using nlohmann::json;
 using Query = std::map<std::string, std::string>;
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The commands that the page offers to copy, run by a shell as a person would.
 class CommandsOfThePage : public testing::Test {

@@ -2,22 +2,18 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
 #include <signal.h>
+
+#include "tests/file_content.hpp"
 
 namespace biotomy::tests {
 
 namespace {
 
 constexpr const char* kOutput = "output";
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::string> boot_command(const std::filesystem::path& folder,
                                       const std::vector<std::string>& options,

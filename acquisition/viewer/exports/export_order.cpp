@@ -6,7 +6,6 @@
 
 #include "acquisition/viewer/command_line.hpp"
 #include "acquisition/viewer/picture_task.hpp"
-#include "acquisition/viewer/refusal.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/excerpt.hpp"
 #include "reconstruct/geometry/section_polygon.hpp"
@@ -19,7 +18,6 @@ using nlohmann::json;
 using reconstruct::InvalidRequest;
 using reconstruct::PictureFormat;
 
-constexpr std::size_t kMostFrames = 10'000;
 constexpr std::size_t kFramesLookedAt = 64;  // for the size of the largest
 constexpr double kLeastRate = 1.0;
 constexpr double kMostRate = 120.0;
@@ -100,11 +98,6 @@ ExportPlan series_plan(const ExportOrder& order, const SampleView& view, std::in
   const SeriesQuery& query = *order.series;
   const reconstruct::Series series = series_of(query, volume.cuboid());
   const std::size_t count = series.frames.size();
-  if (count > kMostFrames) {
-    throw Refusal(413, "the series has " + std::to_string(count) + " frames, and " +
-                           std::to_string(kMostFrames) +
-                           " are the most of an export: make its step larger, or run the command");
-  }
   reconstruct::SectionStyle style = style_of(query, volume.cuboid());
   style.max_bytes = max_bytes;
   double width = 0.0;

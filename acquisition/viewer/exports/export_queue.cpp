@@ -14,11 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
-#include "acquisition/log.hpp"
+#include "acquisition/low_priority.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "acquisition/viewer/exports/export_folder.hpp"
 #include "acquisition/viewer/exports/export_order.hpp"
@@ -26,6 +24,7 @@
 #include "acquisition/viewer/file_response.hpp"
 #include "acquisition/viewer/picture_task.hpp"
 #include "acquisition/viewer/refusal.hpp"
+#include "acquisition/viewer/viewer_settings.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/section/section_record.hpp"
@@ -40,22 +39,12 @@ using std::chrono::milliseconds;
 constexpr std::size_t kMostWaiting = 8;
 constexpr std::size_t kMostKept = 20;
 constexpr std::uint64_t kMostKeptBytes = std::uint64_t{8} << 30;
-constexpr std::uint64_t kLeftFree = std::uint64_t{1} << 30;
 constexpr std::int64_t kMostPictureBytes = 2'000'000'000;  // as of the commands
 constexpr int kNice = 10;
 constexpr milliseconds kBetweenProgress{250};
 constexpr milliseconds kBetweenLooksAtDisk{1000};
+constexpr std::chrono::seconds kLikelyWait{10};  // until one of those that wait is begun
 constexpr double kLeastSecondsToJudgeBy = 0.5;
-
-/// Less of the processor and of the disk than everybody else gets. (TBB's threads that help, where
-/// there are any, do not inherit it.)
-void step_back() {
-  const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
-  ::setpriority(PRIO_PROCESS, thread, kNice);
-  constexpr int kOfAThread = 1;
-  constexpr int kIdle = 3 << 13;
-  ::syscall(SYS_ioprio_set, kOfAThread, 0, kIdle);
-}
 
 /// A picture and what it is encoded into are in memory together.
 std::int64_t most_picture_bytes() {
@@ -176,7 +165,7 @@ struct ExportQueue::State {
   }
 
   void work() {
-    step_back();
+    lower_priority(kNice, DiskShare::idle);
     while (const JobPointer job = next()) {
       change(*job, [](ExportRecord& record) { record.sentence = "being made"; });
       make(*job);
@@ -325,8 +314,10 @@ ApiResponse ExportQueue::add(const ApiRequest& request) {
         state_->jobs.begin(), state_->jobs.end(),
         [](const JobPointer& other) { return other->record.state == ExportState::queued; });
     if (static_cast<std::size_t>(waiting) >= kMostWaiting) {
-      throw Refusal(429, std::to_string(kMostWaiting) +
-                             " exports wait already: ask again when one of them is done");
+      return later_response(429,
+                            std::to_string(kMostWaiting) +
+                                " exports wait already: ask again when one of them is done",
+                            kLikelyWait);
     }
     state_->jobs.push_back(job);
   }

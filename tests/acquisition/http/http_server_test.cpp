@@ -13,6 +13,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "acquisition/http/event_feed.hpp"
 #include "tests/acquisition/http/raw_client.hpp"
@@ -153,6 +155,28 @@ TEST_F(HttpServerTest, TellsAClientThatWaitsToSendItsBody) {
   EXPECT_EQ(client.read_until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
   client.send("body");
   EXPECT_THAT(client.read_until("body"), StartsWith("HTTP/1.1 200 "));
+}
+
+TEST_F(HttpServerTest, AnswersWithLessPriorityThanTheRunAndDrawsWithLessStill) {
+  const auto priority = [] { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); };
+  application.answers = [&](const ApiRequest&) {
+    return ApiResponse{.body = std::to_string(priority())};
+  };
+  httplib::Client client("127.0.0.1", start());
+  EXPECT_EQ(client.Get("/quick")->body, std::to_string(std::min(priority() + 5, 19)));
+  EXPECT_EQ(client.Get("/picture")->body, std::to_string(std::min(priority() + 10, 19)));
+}
+
+TEST_F(HttpServerTest, GoesOnAfterAnAnswerThatFailed) {
+  application.answers = [](const ApiRequest& request) -> ApiResponse {
+    if (request.path == "/fails") throw std::runtime_error("the disk is away");
+    return {};
+  };
+  httplib::Client client("127.0.0.1", start());
+  const auto failed = client.Get("/fails");
+  EXPECT_EQ(failed->status, 500);
+  EXPECT_THAT(failed->body, HasSubstr("the disk is away"));
+  EXPECT_EQ(client.Get("/")->status, 200);
 }
 
 TEST_F(HttpServerTest, WritesNoHeaderThatCameFromElsewhere) {
@@ -425,7 +449,8 @@ TEST_F(HttpServerTest, RefusesAPortThatIsTaken) {
   const int port = start();
   EXPECT_TRUE(listen_complaint("127.0.0.1", port));
   EXPECT_THAT([&] { const HttpServer second(application, "127.0.0.1", port); },
-              testing::ThrowsMessage<ListenError>(HasSubstr("another program has the port")));
+              testing::ThrowsMessage<ListenError>(AllOf(
+                  HasSubstr("Address already in use"), HasSubstr("another program has the port"))));
   server.reset();
   EXPECT_FALSE(listen_complaint("127.0.0.1", port));
 }

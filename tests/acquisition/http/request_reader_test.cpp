@@ -20,6 +20,7 @@ TEST(RequestReader, ReadsARequestByteByByte) {
   const std::string text =
       "POST /api/v1/control/pause?a=b HTTP/1.1\r\nHost: rig:8080\r\nAuthorization: Bearer x\r\n"
       "Origin: http://rig:8080\r\nSec-Fetch-Site: same-origin\r\nLast-Event-ID: 7\r\n"
+      "If-Range: \"a\"\r\n"
       "Content-Length: 4\r\n\r\nbody";
   RequestReader reader;
   std::string bytes;
@@ -39,6 +40,7 @@ TEST(RequestReader, ReadsARequestByteByByte) {
   EXPECT_EQ(received.request.origin, "http://rig:8080");
   EXPECT_EQ(received.request.sec_fetch_site, "same-origin");
   EXPECT_EQ(received.request.last_event_id, "7");
+  EXPECT_EQ(received.request.if_range, "\"a\"");
   EXPECT_EQ(received.request.body, "body");
   EXPECT_TRUE(received.keep_alive);
 }

@@ -55,6 +55,30 @@ TEST_F(AttemptWatchTest, ReadsMoreThanAThousandOneThousandAfterTheOther) {
   EXPECT_EQ(watch.look().size(), 1U);
 }
 
+TEST_F(AttemptWatchTest, SeesWhatWasWrittenBeforeALookAndCommittedAfterIt) {
+  const std::filesystem::path log = path.string() + "-wal";
+  const auto size_of_two = [&] {
+    const std::filesystem::path other = folder.path() / "other.sqlite";
+    LayerJournal journal(other);
+    record(journal, 1);
+    record(journal, 2);
+    return std::filesystem::file_size(other.string() + "-wal");
+  }();
+  LayerJournal journal(path);
+  record(journal, 1);
+  AttemptWatch watch(path);
+  // As it is while the disk takes its time: the log has the second attempt's bytes already.
+  const auto size_of_one = std::filesystem::file_size(log);
+  std::filesystem::resize_file(log, size_of_two);
+  const auto written = std::filesystem::last_write_time(log);
+  EXPECT_TRUE(watch.look().empty());
+  std::filesystem::resize_file(log, size_of_one);
+  record(journal, 2);
+  ASSERT_EQ(std::filesystem::file_size(log), size_of_two);
+  std::filesystem::last_write_time(log, written);
+  EXPECT_EQ(watch.look().size(), 1U);
+}
+
 TEST_F(AttemptWatchTest, KnowsWhatSomebodyMissed) {
   EXPECT_TRUE(missed_attempts(path, 0, 0)->empty());
   LayerJournal journal(path);

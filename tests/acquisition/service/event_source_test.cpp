@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -14,6 +15,7 @@ namespace biotomy::tests {
 namespace {
 
 using namespace acquisition;
+using TimePoint = std::chrono::steady_clock::time_point;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -72,6 +74,23 @@ TEST(EventSource, GoesOnAfterWhatItCouldNotSee) {
   EXPECT_TRUE(listener->take().empty());
   broken = false;
   EXPECT_EQ(next_with(*listener, "status"), "event: status\ndata: {}\n\n");
+}
+
+TEST(EventSource, GivesSignsOfLifeByTheClockHoweverLongItsLooksTake) {
+  EventFeed feed;
+  const auto listener = feed.subscribe();
+  std::atomic<int> looks = 0;
+  std::promise<void> heard;
+  const std::shared_future<void> is_heard = heard.get_future();
+  const auto see = [&] {
+    if (++looks == 10) is_heard.wait();
+    return std::string("{}");
+  };
+  const EventSource source(feed, {.status = see, .sample = {}},
+                           [&] { return TimePoint(looks.load() * std::chrono::seconds(2)); });
+  EXPECT_EQ(next_with(*listener, ": \n"), ": \n\n");
+  EXPECT_GE(looks, 3);
+  heard.set_value();
 }
 
 TEST(Exports, AreToldEachByItsId) {

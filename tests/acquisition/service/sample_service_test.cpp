@@ -58,10 +58,27 @@ TEST_F(SampleServiceTest, HandsOnWhatIsTheSamples) {
   request.method = "GET";
   request.path = "/api/v1/sample";
   EXPECT_EQ(ask(request.path).status, sample.answer(request).status);
-  request.path = "/api/v1/section";
-  EXPECT_EQ(service.lane(request), Lane::pictures);
-  request.path = "/api/v1/service";
-  EXPECT_EQ(service.lane(request), Lane::quick);
+}
+
+TEST_F(SampleServiceTest, LeavesWhateverIsDrawnToThePicturesLane) {
+  const auto lane = [&](const std::string& path) {
+    ApiRequest request;
+    request.path = path;
+    return service.lane(request);
+  };
+  for (const char* drawn : {"/api/v1/section", "/api/v1/series/frame", "/api/v1/layers/1/image",
+                            "/api/v1/layers/1/tiles/0/0/0", "/api/v1/layers/1/sharpness"}) {
+    EXPECT_EQ(lane(drawn), Lane::pictures) << drawn;
+  }
+  for (const char* sent : {"/api/v1/rejected/a.jpg", "/api/v1/exports/1/files/section.png",
+                           "/volume.ome.zarr/zarr.json"}) {
+    EXPECT_EQ(lane(sent), Lane::files) << sent;
+  }
+  for (const char* looked_at :
+       {"/api/v1/service", "/api/v1/section/outline", "/api/v1/series/frames", "/api/v1/layers/1",
+        "/api/v1/rejected", "/api/v1/exports", "/api/v1/sample", "/"}) {
+    EXPECT_EQ(lane(looked_at), Lane::quick) << looked_at;
+  }
 }
 
 }  // namespace

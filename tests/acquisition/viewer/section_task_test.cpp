@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
-#include "reconstruct/picture/png_reader.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/section/section.hpp"
 #include "tests/acquisition/viewer/viewed_sample.hpp"
@@ -23,11 +22,6 @@ using testing::HasSubstr;
 
 constexpr const char* kSection = "/api/v1/section";
 constexpr const char* kOutline = "/api/v1/section/outline";
-
-cv::Mat pixels_of(const ApiResponse& response) {
-  return reconstruct::decode_png(
-      std::as_bytes(std::span(response.body.data(), response.body.size())));
-}
 
 nlohmann::json record_of(const ApiResponse& response) {
   return nlohmann::json::parse(response.headers.at("Biotomy-Section"));
@@ -150,7 +144,7 @@ TEST_F(SectionPicturesOfASample, EndWhenNobodyWaits) {
                                             .path = kSection,
                                             .query = {{"normal", "0,0,1"}, {"through", "0,0,0"}},
                                             .client_left = [] { return true; }});
-  EXPECT_EQ(response.status, 503);
+  EXPECT_EQ(response.status, 413) << "not one after which pages ask again";
 }
 
 TEST_F(SectionPicturesOfASample, SayWhereAChunkIsDamaged) {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "acquisition/viewer/sample_api.hpp"
+#include "reconstruct/picture/png_reader.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
@@ -32,6 +36,11 @@ class ViewedSample : public testing::Test {
 
   static nlohmann::json json_of(const ApiResponse& response) {
     return nlohmann::json::parse(response.body);
+  }
+
+  /// Of a PNG.
+  static cv::Mat pixels_of(const ApiResponse& response) {
+    return reconstruct::decode_png(std::as_bytes(std::span(response.body)));
   }
 
   static std::string sentence_of(const ApiResponse& response) {

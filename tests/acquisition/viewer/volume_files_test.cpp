@@ -56,6 +56,22 @@ TEST_F(FilesOfAVolume, AreGivenWholeAndInParts) {
   EXPECT_EQ(get("zarr.json").content_type, "application/json");
 }
 
+TEST_F(FilesOfAVolume, AreGivenWholeToWhoHasTheBeginningOfAnother) {
+  const std::string etag = get("0/c/0/0/0/0").headers.at("ETag");
+  const auto status = [&](const std::string& if_range) {
+    return api_
+        .answer({.method = "GET",
+                 .path = "/volume.ome.zarr/0/c/0/0/0/0",
+                 .range = "bytes=100-",
+                 .if_range = if_range})
+        .status;
+  };
+  EXPECT_EQ(status(""), 206);
+  EXPECT_EQ(status(etag), 206);
+  EXPECT_EQ(status("\"another\""), 200);
+  EXPECT_EQ(status("W/" + etag), 200) << "parts need the very same bytes";
+}
+
 TEST_F(FilesOfAVolume, AreNotThereWhereTheVolumeHasNone) {
   std::ofstream(folder_ / "secret") << "mine";
   std::filesystem::create_symlink(folder_ / "secret", sample_.volume_path() / "0/c/0/0/0/9");

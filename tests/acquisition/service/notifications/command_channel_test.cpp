@@ -1,7 +1,6 @@
 #include "acquisition/service/notifications/command_channel.hpp"
 
 #include <fstream>
-#include <iterator>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/service/notifications/notice.hpp"
+#include "tests/file_content.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
@@ -22,11 +22,6 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 constexpr milliseconds kTime{60000};
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::string message() {
   Notice notice;

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -20,6 +19,7 @@
 #include "reconstruct/picture/png_reader.hpp"
 #include "tests/acquisition/viewer/exports/archive_content.hpp"
 #include "tests/acquisition/viewer/viewed_sample.hpp"
+#include "tests/file_content.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 using nlohmann::json;
 using testing::HasSubstr;
+using tests::content_of;
 
 constexpr const char* kExports = "/api/v1/exports";
 constexpr const char* kSection =
@@ -37,11 +38,6 @@ constexpr const char* kTurn =
 /// So many frames that it is never done before it is cancelled.
 constexpr const char* kEndless =
     R"({"kind":"series","series":{"kind":"rotate","axis":"x","to":"180","step":"0.02"},"parameters":{"pixel":"2"}})";
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class ExportsOfASample : public ViewedSample {
  protected:
@@ -173,6 +169,7 @@ TEST_F(ExportsOfASample, WaitForEachOtherUpToANumber) {
   const ApiResponse refused = ask("POST", "", kSection);
   EXPECT_EQ(refused.status, 429);
   EXPECT_THAT(sentence_of(refused), HasSubstr("8 exports wait already"));
+  EXPECT_EQ(refused.headers.at("Retry-After"), "10");
   EXPECT_EQ(json_of(ask("GET", "")).at("exports").size(), 9U);
   EXPECT_EQ(json_of(ask("GET", "")).at("exports").at(8).at("id"), first) << "the newest first";
   ask("DELETE", "/" + waiting[0]);
