@@ -11,7 +11,9 @@ import { until } from "./until.mjs";
 export const cuboid = (page) => page.locator('canvas[data-role="cuboid"]');
 export const section = (page) => page.locator('canvas[data-role="section"]');
 
-const isSharp = (canvas) => canvas.and(canvas.page().locator('[data-state="sharp"]'));
+/** What is said of the picture on the canvas, at one moment: a preview may follow at the next. */
+const said = (canvas) =>
+  canvas.evaluate(({ dataset }) => ({ state: dataset.state, command: dataset.command ?? "" }));
 
 /** The section's canvas, once it is sharp; `before`: of another command than this one. */
 export async function sharpSection(page, before = "") {
@@ -19,10 +21,10 @@ export async function sharpSection(page, before = "") {
   await until(
     "a sharp section",
     async () => {
-      await isSharp(canvas).waitFor();
-      return (await canvas.getAttribute("data-command")) !== before;
+      const { state, command } = await said(canvas);
+      return state === "sharp" && command !== before;
     },
-    { said: async () => `${await canvas.getAttribute("data-state")}: ${page.url()}` },
+    { said: async () => `${JSON.stringify(await said(canvas))}: ${page.url()}` },
   );
   return canvas;
 }
