@@ -31,5 +31,5 @@ export default defineConfig({
   server: {
     proxy: { "/api": proxy, "/healthz": proxy, "/metrics": proxy, "/volume.ome.zarr": proxy },
   },
-  test: { include: ["{src,test}/**/*.test.{ts,tsx}"] },
+  test: { include: ["test/**/*.test.{ts,tsx}"] },
 });

@@ -15,7 +15,8 @@ const quietly = [
 ];
 
 export const screen = { width: 1440, height: 900 };
-export const phone = { width: 390, height: 844 };
+/** A context's options. */
+export const phone = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
 
 const patience = 60_000; // ms: a machine that is busy is not a page that is wrong
 

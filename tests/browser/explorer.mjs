@@ -5,12 +5,15 @@ import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { decoded } from "./pictures.mjs";
+import { limited } from "./programs.mjs";
 import { until } from "./until.mjs";
 
 export const cuboid = (page) => page.locator('canvas[data-role="cuboid"]');
 export const section = (page) => page.locator('canvas[data-role="section"]');
 
-const isSharp = (canvas) => canvas.and(canvas.page().locator('[data-state="sharp"]'));
+/** What is said of the picture on the canvas, at one moment: a preview may follow at the next. */
+const said = (canvas) =>
+  canvas.evaluate(({ dataset }) => ({ state: dataset.state, command: dataset.command ?? "" }));
 
 /** The section's canvas, once it is sharp; `before`: of another command than this one. */
 export async function sharpSection(page, before = "") {
@@ -18,10 +21,10 @@ export async function sharpSection(page, before = "") {
   await until(
     "a sharp section",
     async () => {
-      await isSharp(canvas).waitFor();
-      return (await canvas.getAttribute("data-command")) !== before;
+      const { state, command } = await said(canvas);
+      return state === "sharp" && command !== before;
     },
-    { said: async () => `${await canvas.getAttribute("data-state")}: ${page.url()}` },
+    { said: async () => `${JSON.stringify(await said(canvas))}: ${page.url()}` },
   );
   return canvas;
 }
@@ -32,9 +35,9 @@ export function drawnByTool(command) {
   try {
     const environment = { ...process.env, PATH: `${process.env.BIOTOMY_BIN}:${process.env.PATH}` };
     const { status, stderr } = spawnSync("sh", ["-c", command], {
+      ...limited,
       cwd: folder,
       env: environment,
-      encoding: "utf8",
     });
     assert.equal(status, 0, `${command}: ${stderr}`);
     const [name] = fs.readdirSync(folder);

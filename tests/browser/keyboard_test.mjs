@@ -100,6 +100,30 @@ test("the focus stays in a dialog, and a run is started in it", async () => {
   assert.match(rig.log, /start by .*\(by the keys\)/);
 });
 
+test("a dialog stays while its command is on its way, however often Escape is pressed", async () => {
+  const { page } = tab;
+  const command = "**/api/v1/control/start";
+  let answer;
+  const held = new Promise((resolve) => (answer = resolve));
+  await page.route(command, async (route) => {
+    await held;
+    await route.fulfill({ json: { accepted: true, message: "it was kept waiting" } });
+  });
+  await tabTo(({ name, tag }) => tag === "BUTTON" && /^Start…?$/.test(name), "Shift+Tab");
+  await page.keyboard.press("Enter");
+  const asked = page.getByRole("dialog", { name: "Start" });
+  await asked.getByLabel("Reason").focus();
+  await page.keyboard.press("Enter");
+  await asked.getByText("Asking…").waitFor();
+  for (let times = 0; times < 3; ++times) await page.keyboard.press("Escape");
+  await asked.getByText("Asking…").waitFor();
+  answer();
+  await asked.getByText("it was kept waiting").waitFor();
+  await page.keyboard.press("Escape");
+  await asked.waitFor({ state: "hidden" });
+  await page.unroute(command);
+});
+
 test("layers are gone through", async () => {
   const { page } = tab;
   await tabTo(({ name, tag }) => tag === "A" && name === "Layers", "Shift+Tab");

@@ -59,12 +59,7 @@ const tooSmall = (page, least) =>
 
 for (const view of views) {
   test(`${view.name} fits a phone and its fingers`, async () => {
-    const tab = await Tab.open(browser, {
-      viewport: phone,
-      isMobile: true,
-      hasTouch: true,
-      deviceScaleFactor: 3,
-    });
+    const tab = await Tab.open(browser, { ...phone, deviceScaleFactor: 3 });
     try {
       await open(tab, rig.url, view);
       assert.deepEqual(await sidewards(tab.page), []);
@@ -86,12 +81,7 @@ for (const view of views) {
 }
 
 test("a layer is chosen by a finger", async () => {
-  const tab = await Tab.open(browser, {
-    viewport: phone,
-    isMobile: true,
-    hasTouch: true,
-    deviceScaleFactor: 2,
-  });
+  const tab = await Tab.open(browser, { ...phone, deviceScaleFactor: 2 });
   try {
     await open(tab, rig.url, views[1]);
     await tab.page.locator('[data-role="strip"] [data-layer="3"]').first().tap();

@@ -8,11 +8,15 @@ if (!bin) throw new Error("BIOTOMY_BIN must name the folder of biotomy, biotomyd
 
 const tool = path.join(bin, "biotomy");
 const wholeOutput = 64 * 1024 * 1024; // bytes
+const patience_s = 60; // a machine that is busy is not a program that hangs
+
+/** What spawnSync may be told of any program, so that one that hangs fails its test and no more. */
+export const limited = { encoding: "utf8", timeout: 2 * patience_s * 1000 };
 
 /** Runs the tool `biotomy` to its end. */
 export function biotomy(...words) {
   const { status, stdout, stderr } = spawnSync(tool, words, {
-    encoding: "utf8",
+    ...limited,
     maxBuffer: wholeOutput,
   });
   return { status, stdout, stderr };
@@ -48,7 +52,7 @@ export class Program {
   }
 
   /** The rest of the line after `text`, once the program has printed it. */
-  async says(text, seconds = 60) {
+  async says(text, seconds = patience_s) {
     const limit = Date.now() + seconds * 1000;
     for (;;) {
       const at = this.output.indexOf(text);
@@ -65,9 +69,17 @@ export class Program {
     this.#child.kill(name);
   }
 
-  /** Sends `signal` and waits for the end: its exit code, or the signal that ended it. */
-  async end(signal = "SIGTERM") {
+  /** Sends `signal` and waits for the end: its exit code, or the signal that ended it. One that does
+   * not end is killed, which is an error. */
+  async end(signal = "SIGTERM", seconds = patience_s) {
     if (this.runs) this.#child.kill(signal);
-    return this.#ended;
+    let hangs = false;
+    const limit = setTimeout(() => {
+      hangs = true;
+      this.#child.kill("SIGKILL");
+    }, seconds * 1000);
+    const end = await this.#ended.finally(() => clearTimeout(limit));
+    if (hangs) throw new Error(`${this.name} did not end by ${signal}: ${this.output}`);
+    return end;
   }
 }

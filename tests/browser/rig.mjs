@@ -3,7 +3,7 @@ import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
-import { Program } from "./programs.mjs";
+import { Program, limited } from "./programs.mjs";
 import { until } from "./until.mjs";
 
 const registerMap = process.env.BIOTOMY_REGISTER_MAP;
@@ -12,6 +12,7 @@ const hand = process.env.BIOTOMY_RIG_HAND;
 const columnOffset = 350; // µm
 const focusGuessError = 25; // µm: the operator's guess is near, not right
 const firstFace = 1000; // µm
+const answer_ms = 60_000; // for an answer of the daemon, on a machine that is busy
 
 /** What a test may choose of its rig; lengths in micrometres. */
 const usual = {
@@ -155,16 +156,18 @@ ${service}`,
 
   /** What a person does at the rig: `rig_hand`'s words after the socket. */
   hand(...words) {
-    const { status, stderr } = spawnSync(hand, [path.join(this.folder, "rig.socket"), ...words], {
-      encoding: "utf8",
-    });
-    if (status !== 0) throw new Error(stderr);
+    const all = [path.join(this.folder, "rig.socket"), ...words];
+    const { status, stderr, error } = spawnSync(hand, all, limited);
+    if (status !== 0) throw error ?? new Error(stderr);
   }
 
-  /** Asks the daemon as a program does; `token` only when told so. */
+  /** Asks the daemon as a program does, and waits a while for the whole answer; `token` only when told
+   * so. */
   ask(target, { token, headers, ...rest } = {}) {
     const authorization = token ? { Authorization: `Bearer ${token}` } : {};
-    return fetch(this.url + target, { ...rest, headers: { ...authorization, ...headers } });
+    const signal = AbortSignal.timeout(answer_ms);
+    const all = { ...authorization, ...headers };
+    return fetch(this.url + target, { signal, ...rest, headers: all });
   }
 
   async status() {

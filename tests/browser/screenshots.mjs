@@ -74,12 +74,7 @@ try {
   await page.locator('header [data-state="grinding"]').waitFor();
   await take(page, "run");
 
-  const onPhone = await Tab.open(browser, {
-    viewport: phone,
-    isMobile: true,
-    hasTouch: true,
-    deviceScaleFactor: 1.5,
-  });
+  const onPhone = await Tab.open(browser, { ...phone, deviceScaleFactor: 1.5 });
   await onPhone.visit(rig.url, "#/run");
   await settled(onPhone.page);
   await take(onPhone.page, "phone");

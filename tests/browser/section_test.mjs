@@ -70,6 +70,34 @@ for (const shortcut of ["Along layers", "x-z", "y-z", "Diagonal"]) {
   });
 }
 
+/** A place on the edge that begins at a vertex of the outline that lies over this canvas. */
+async function placeOnEdge(canvas, edge) {
+  const outline = canvas.locator("xpath=..").locator("svg .section-outline");
+  const vertices = (await outline.getAttribute("points"))
+    .split(" ")
+    .map((place) => place.split(",").map(Number));
+  const [from, to] = [vertices[edge], vertices[(edge + 1) % vertices.length]];
+  const box = await canvas.locator("xpath=..").boundingBox();
+  return [box.x + from[0] + 0.4 * (to[0] - from[0]), box.y + from[1] + 0.4 * (to[1] - from[1])];
+}
+
+for (const [where, canvasOf, edge] of [
+  ["section", section, 1],
+  ["block", cuboid, 2],
+]) {
+  test(`a click on an edge in the ${where} chooses the rectangle on it, as the list does`, async () => {
+    const { page } = tab;
+    const list = page.getByLabel("Rectangle");
+    const before = await commandOf(page);
+    await page.mouse.click(...(await placeOnEdge(canvasOf(page), edge)));
+    assert.equal(await list.inputValue(), `edge:${edge}`);
+    const command = await assertDrawnAsByTool(before);
+    assert.match(command, new RegExp(`--theta=edge:${edge}`));
+    await list.selectOption("bounding");
+    await sharpSection(page, command);
+  });
+}
+
 test("the plane is turned by the keyboard in the cuboid, and the address follows", async () => {
   const { page } = tab;
   const before = await commandOf(page);

@@ -28,6 +28,8 @@ export interface RequestOptions {
   method?: "GET" | "POST" | "DELETE";
   body?: unknown; // sent as JSON
   signal?: AbortSignal;
+  /** Without a signal: how long to wait for the answer, however long a person looks for the token. */
+  limit_ms?: number;
   headers?: Record<string, string>;
 }
 
@@ -39,6 +41,9 @@ export const isAbort = (error: unknown): boolean =>
 export const sentenceOf = (error: unknown): string =>
   error instanceof Error ? error.message : String(error);
 
+const limitOf = ({ limit_ms }: RequestOptions): AbortSignal | undefined =>
+  limit_ms === undefined ? undefined : AbortSignal.timeout(limit_ms);
+
 async function send(path: string, options: RequestOptions): Promise<Response> {
   const headers: Record<string, string> = { ...options.headers };
   if (token()) headers.Authorization = `Bearer ${token()}`;
@@ -48,7 +53,7 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
       method: options.method ?? "GET",
       headers,
       body: options.body === undefined ? undefined : JSON.stringify(options.body),
-      signal: options.signal,
+      signal: options.signal ?? limitOf(options),
       credentials: "omit",
       redirect: "error",
     });
@@ -115,13 +120,17 @@ export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T>
   return (await (await request(path, { signal })).json()) as T;
 }
 
-export async function postJson<T>(path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
-  return (await (await request(path, { method: "POST", body, signal })).json()) as T;
+/** What is asked for is only begun before the answer comes: a long silence is none. */
+export const longestAnswer_ms = 20_000;
+
+export async function postJson<T>(path: string, body?: unknown): Promise<T> {
+  const limit_ms = longestAnswer_ms;
+  return (await (await request(path, { method: "POST", body, limit_ms })).json()) as T;
 }
 
 /** Answers may be empty: what they say is not looked at. */
-export async function deleteAt(path: string, signal?: AbortSignal): Promise<void> {
-  await request(path, { method: "DELETE", signal });
+export async function deleteAt(path: string): Promise<void> {
+  await request(path, { method: "DELETE", limit_ms: longestAnswer_ms });
 }
 
 /** A picture or a file, whole. */

@@ -33,6 +33,7 @@ export class EventStream {
   private lastId = "";
   private failures = 0;
   private connection: AbortController | null = null;
+  private parser: EventParser | null = null;
   private retry: number | undefined;
   private closed = true;
 
@@ -41,15 +42,20 @@ export class EventStream {
     private readonly listener: EventListener,
   ) {}
 
+  /** Goes on after the last event that came, if it was open before. */
   open(): void {
+    if (!this.closed) return;
     this.closed = false;
+    this.failures = 0;
     void this.connect();
   }
 
+  /** Nothing is told any more, not even that it was closed. */
   close(): void {
     this.closed = true;
     clearTimeout(this.retry);
     this.connection?.abort();
+    this.connection = null;
   }
 
   /** Tries at once in place of when the wait is over: the network is back, or the tab is seen. */
@@ -62,6 +68,7 @@ export class EventStream {
   /** Forgets what came: the next connection begins with what is, not with what was missed. */
   forget(): void {
     this.lastId = "";
+    this.parser?.forget();
   }
 
   private async connect(): Promise<void> {
@@ -82,16 +89,17 @@ export class EventStream {
       const headers: Record<string, string> = { Accept: "text/event-stream" };
       if (this.lastId) headers["Last-Event-ID"] = this.lastId;
       const response = await request(this.path, { headers, signal: connection.signal });
+      if (this.connection !== connection) return;
       if (!response.body) throw new ConnectionError();
       heard();
       this.heardAt = Date.now();
       this.failures = 0;
       this.listener.live();
-      const parser = new EventParser(this.lastId);
+      const parser = (this.parser = new EventParser(this.lastId));
       const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
       for (;;) {
         const { done, value } = await reader.read();
-        if (done) break;
+        if (done || this.connection !== connection) break;
         heard();
         this.heardAt = Date.now();
         for (const event of parser.push(value)) {
@@ -104,9 +112,9 @@ export class EventStream {
     } finally {
       clearTimeout(silence);
       connection.abort();
-      this.connection = null;
     }
-    if (this.closed) return;
+    if (this.connection !== connection) return; // it was closed, and may be open again
+    this.connection = null;
     this.failures += 1;
     const wait_ms = backOff_ms(this.failures);
     this.listener.lost(why, wait_ms);

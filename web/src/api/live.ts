@@ -1,8 +1,9 @@
-import { signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 
-import { getJson, sentenceOf, servicePath } from "./client";
+import { ConnectionError, getJson, sentenceOf, servicePath } from "./client";
 import type { StreamEvent } from "./event_parser";
 import { EventStream } from "./events";
+import { type SeenTab, thisTab } from "./seen_tab";
 import { askAgain, setNeeds } from "./token";
 import type { Attempt, ExportJob, SampleProgress, Service, Status } from "./types";
 
@@ -13,7 +14,7 @@ export const status = signal<Status | null>(null);
 export const sampleProgress = signal<SampleProgress | null>(null);
 
 export interface Connection {
-  state: "connecting" | "live" | "lost";
+  state: "connecting" | "live" | "lost" | "resting"; // resting: given up, as nobody looks
   why: string; // it is lost
   since: number; // Date.now() when it came to this state
   heardAt: number; // Date.now() when the server was last heard of; 0 if never
@@ -87,8 +88,8 @@ const changed = (state: Connection["state"], why = "", retryAt = 0): void => {
 const stream = new EventStream("/api/v1/events", {
   event: takeEvent,
   live() {
-    // After a loss the server may be another one than before: its version, its sample.
-    if (connection.value.state === "lost" || !service.value) void learnService();
+    // The server may be another one than before: its version, its sample.
+    if (connection.value.state !== "connecting" || !service.value) void learnService();
     changed("live");
   },
   lost(why, retry_ms) {
@@ -109,14 +110,49 @@ async function learnService(): Promise<void> {
     setNeeds({ reading: learnt.reading === "token", commands: learnt.commands_need_token });
     service.value = learnt;
   } catch (error) {
-    if (connection.value.state !== "live") changed("lost", sentenceOf(error));
+    const { state } = connection.value;
+    if (state === "live") askAgainLater();
+    else if (state !== "resting") changed("lost", sentenceOf(error));
   }
 }
 
+const serviceAgain_ms = 3000;
+let serviceAgain: number | undefined;
+
+/** A server that tells its news may still be too busy to say what it is. */
+function askAgainLater(): void {
+  clearTimeout(serviceAgain);
+  serviceAgain = window.setTimeout(() => void learnService(), serviceAgain_ms);
+}
+
+const patience_ms = 1000;
+let patience: number | undefined;
+
+/** Whoever looks again sees what was known: it is old unless the server answers soon. */
+function hear(): void {
+  if (connection.value.state === "resting") {
+    patience = window.setTimeout(() => {
+      if (connection.value.state === "resting") changed("lost", new ConnectionError().message);
+    }, patience_ms);
+  }
+  stream.open();
+}
+
+function rest(): void {
+  clearTimeout(patience);
+  stream.close();
+  changed("resting");
+}
+
 /** Begins to listen, and goes on until the page is closed. */
-export function goLive(): void {
+export function goLive(tab: SeenTab = thisTab()): void {
   // What the server is decides whether to ask for a token before anything else.
-  void learnService().then(() => stream.open());
+  void learnService().then(() =>
+    effect(() => {
+      const hears = tab.hears.value;
+      untracked(hears ? hear : rest);
+    }),
+  );
   window.addEventListener("online", () => stream.hurry());
   document.addEventListener("visibilitychange", () => {
     if (document.visibilityState === "visible") stream.hurry();

@@ -40,8 +40,8 @@ export interface Alarm {
   cause: string;
   since: string; // ISO 8601, UTC
   state: JobState; // in which it came; "faulted": the latch of the start
-  advice?: string;
-  kind?: string; // what it is about; "start_latch": nothing happened, the program has just started
+  advice: string;
+  kind: string; // what it is about; "start_latch": nothing happened, the program has just started
 }
 
 export interface StageStatus {
@@ -86,7 +86,7 @@ export interface Status {
   committed: number;
   attempt: number;
   seconds_left: number | null;
-  seconds_left_range?: [number, number] | null;
+  seconds_left_range: [number, number] | null;
   stage: StageStatus | null;
   interlocks: Interlocks;
   last_layer: {
@@ -96,7 +96,7 @@ export interface Status {
     reason: string;
     metrics: Metric[];
   } | null;
-  last_attempt?: LastAttempt | null;
+  last_attempt: LastAttempt | null;
   focus: {
     layer: number;
     why: string;
@@ -111,8 +111,8 @@ export interface Status {
   alarm: Alarm | null;
   calibration: { kind: string; progress: "running" | "done" | "failed"; sentence: string } | null;
   volume: { layers_present: number; finished: boolean; failure: string };
-  limits?: { [quantity: string]: Window | null };
-  commands?: string[];
+  limits: { [quantity: string]: Window | null };
+  commands: string[];
 }
 
 export interface Service {
@@ -155,23 +155,6 @@ export interface LayerDetail {
   attempts: Attempt[];
 }
 
-export interface LayerRow {
-  layer: number;
-  attempt: number;
-  flagged: boolean;
-  file: string;
-  bytes: number;
-  sha256: string;
-  committed_at: string;
-  reason: string;
-  metrics: Metric[];
-}
-
-export interface Layers {
-  count: number;
-  layers: LayerRow[];
-}
-
 export interface Rejected {
   count: number;
   rejected: Attempt[]; // the newest first
@@ -211,7 +194,6 @@ export interface Sample {
   levels: { size: [number, number, number]; spacing_um: [number, number, number] }[];
   generation: number;
   volume_url: string;
-  background?: [number, number, number];
 }
 
 /** How far the sample has grown; `generation` rises whenever its layers or its volume changed. */

@@ -1,5 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
 
 import { sentenceOf } from "../api/client";
 import { Button } from "../ui/Button";
@@ -18,7 +19,10 @@ const told_ms = 2000;
 export function CopyButton({ what, text, children }: Props) {
   const told = useSignal("");
   const byHand = useSignal<string | null>(null);
+  const forgetting = useRef<ReturnType<typeof setTimeout>>();
+  useEffect(() => () => clearTimeout(forgetting.current), []);
   const copy = async () => {
+    clearTimeout(forgetting.current); // of what was copied before
     try {
       const copied = await text();
       if (await copyText(copied)) told.value = "Copied";
@@ -26,7 +30,7 @@ export function CopyButton({ what, text, children }: Props) {
     } catch (error) {
       told.value = sentenceOf(error);
     }
-    setTimeout(() => (told.value = ""), told_ms);
+    forgetting.current = setTimeout(() => (told.value = ""), told_ms);
   };
   return (
     <>

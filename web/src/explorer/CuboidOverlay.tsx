@@ -8,6 +8,7 @@ import { cornersOf } from "./geometry/plane_rectangle";
 import type { Vector3 } from "./geometry/vector3";
 import { projected } from "./orbit_camera";
 import type { Projection } from "./orbit_camera";
+import { svgPoints } from "./svg_points";
 
 const labelRoom = 38; // beside the middle of a label, CSS pixels
 
@@ -25,14 +26,8 @@ export function CuboidOverlay({ state, projection, handles, held }: Props) {
   const cuboid = state.cuboid.value;
   const placed = state.shownPlane.value;
   if (!cuboid) return null;
-  const path = (points: readonly Vector3[]) =>
-    points
-      .map((point) =>
-        projected(view, point)
-          .map((v) => v.toFixed(1))
-          .join(","),
-      )
-      .join(" ");
+  const at = (point: Vector3) => projected(view, point);
+  const path = (points: readonly Vector3[]) => svgPoints(points, at);
   const rectangle = state.frame.value ? null : state.rectangle.value;
   const layers = state.layersPresent.value;
   const depth = depthOfLayer(cuboid, Math.max(1, layers));
@@ -50,7 +45,7 @@ export function CuboidOverlay({ state, projection, handles, held }: Props) {
           ])}
         />
       )}
-      {axisLabels(far, (point) => projected(view, point)).map(({ axis, x, y }) => (
+      {axisLabels(far, at).map(({ axis, x, y }) => (
         <text
           key={axis}
           x={Math.min(view.width - labelRoom, Math.max(labelRoom, x))}

@@ -43,15 +43,7 @@ export function CuboidView({ state }: Props) {
     };
   }, []);
 
-  const dark = useSignal(0);
-  useEffect(() => {
-    const scheme = window.matchMedia("(prefers-color-scheme: dark)");
-    const changed = () => (dark.value += 1);
-    scheme.addEventListener("change", changed);
-    return () => scheme.removeEventListener("change", changed);
-  }, []);
-
-  useEffect(() => drawOnDemand(() => canvas.current, state, renderer, projection, size, dark), []);
+  useEffect(() => drawOnDemand(() => canvas.current, state, renderer, projection, size), []);
   useCuboidPointer(canvas, state, projection, handles, held);
 
   return (

@@ -3,6 +3,17 @@ import { Switch } from "../ui/Switch";
 import type { ExplorerState } from "./explorer_state";
 import { layerAt } from "./geometry/cuboid";
 import { NumberField } from "./NumberField";
+import {
+  movePoint,
+  nudge,
+  setNormal,
+  setOffset,
+  setThrough,
+  stand,
+  toDiagonal,
+  toLayer,
+  turn,
+} from "./plane_moves";
 import { isAlongLayers, stepAlong } from "./plane_state";
 import { SliderField } from "./SliderField";
 import { VectorField } from "./VectorField";
@@ -24,12 +35,12 @@ export function PlaneControls({ state }: Props) {
     <section class="panel explorer-panel" aria-labelledby="plane-title">
       <h2 id="plane-title">Plane</h2>
       <div class="plane-shortcuts" role="group" aria-label="Shortcuts">
-        <Button aria-pressed={along} onClick={() => state.toLayer(layer)}>
+        <Button aria-pressed={along} onClick={() => toLayer(state, layer)}>
           Along layers
         </Button>
-        <Button onClick={() => state.stand("xz")}>x-z</Button>
-        <Button onClick={() => state.stand("yz")}>y-z</Button>
-        <Button onClick={() => state.toDiagonal()}>Diagonal</Button>
+        <Button onClick={() => stand(state, "xz")}>x-z</Button>
+        <Button onClick={() => stand(state, "yz")}>y-z</Button>
+        <Button onClick={() => toDiagonal(state)}>Diagonal</Button>
       </div>
       <div class="layer-row">
         <NumberField
@@ -40,7 +51,7 @@ export function PlaneControls({ state }: Props) {
           max={cuboid.size[2]}
           step={1}
           unit={`of ${cuboid.size[2]}`}
-          onChange={(typed) => state.toLayer(typed)}
+          onChange={(typed) => toLayer(state, typed)}
         />
         <Switch
           checked={state.follow.value}
@@ -57,7 +68,7 @@ export function PlaneControls({ state }: Props) {
         step={0.5}
         decimals={2}
         unit="°"
-        onChange={(tilt) => state.turn({ tilt })}
+        onChange={(tilt) => turn(state, { tilt })}
       />
       <SliderField
         label="Azimuth"
@@ -67,7 +78,7 @@ export function PlaneControls({ state }: Props) {
         step={0.5}
         decimals={2}
         unit="°"
-        onChange={(azimuth) => state.turn({ azimuth })}
+        onChange={(azimuth) => turn(state, { azimuth })}
       />
       <SliderField
         label={along ? "Depth" : "Offset"}
@@ -77,11 +88,11 @@ export function PlaneControls({ state }: Props) {
         step={stepAlong(normal, cuboid)}
         decimals={2}
         unit="µm"
-        onChange={(offset) => state.setOffset(offset)}
+        onChange={(offset) => setOffset(state, offset)}
       />
       <div class="plane-steps" role="group" aria-label="One step">
-        <Button onClick={() => state.nudge(-1)}>− 1 step</Button>
-        <Button onClick={() => state.nudge(1)}>+ 1 step</Button>
+        <Button onClick={() => nudge(state, -1)}>− 1 step</Button>
+        <Button onClick={() => nudge(state, 1)}>+ 1 step</Button>
       </div>
       <details>
         <summary>Normal and point</summary>
@@ -89,12 +100,12 @@ export function PlaneControls({ state }: Props) {
           label="Normal"
           decimals={6}
           value={placed.definition.kind === "normal" ? placed.definition.normal : normal}
-          onChange={(typed) => state.setNormal(typed)}
+          onChange={(typed) => setNormal(state, typed)}
         />
         <VectorField
           label="Through, µm"
           value={placed.through}
-          onChange={(typed) => state.setThrough(typed)}
+          onChange={(typed) => setThrough(state, typed)}
         />
       </details>
       <details>
@@ -104,7 +115,7 @@ export function PlaneControls({ state }: Props) {
             key={i}
             label={`Point ${i + 1}, µm`}
             value={point}
-            onChange={(typed) => state.movePoint(i, typed)}
+            onChange={(typed) => movePoint(state, i, typed)}
           />
         ))}
       </details>

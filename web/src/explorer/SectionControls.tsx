@@ -1,5 +1,6 @@
 import { Button } from "../ui/Button";
 import { Field } from "../ui/Field";
+import { lengthWords } from "../ui/lengths";
 import { Switch } from "../ui/Switch";
 import type { ExplorerState } from "./explorer_state";
 import { cornersOf } from "./geometry/plane_rectangle";
@@ -7,7 +8,6 @@ import { norm, subtract } from "./geometry/vector3";
 import type { Colour, Interpolation, Theta } from "./section_choices";
 import type { SectionTools } from "./section_tools";
 import { customBetween } from "./theta_frame";
-import { lengthWords } from "./section_window";
 
 interface Props {
   state: ExplorerState;

@@ -1,12 +1,14 @@
 import type { ReadonlySignal } from "@preact/signals";
 
+import { lengthWords, roundLength } from "../ui/lengths";
 import type { ExplorerState } from "./explorer_state";
 import { cornersOf, inPlane } from "./geometry/plane_rectangle";
 import { norm, subtract } from "./geometry/vector3";
 import type { Vector3 } from "./geometry/vector3";
 import type { SectionTools } from "./section_tools";
-import { barLength, lengthWords, pixelAt } from "./section_window";
+import { pixelAt } from "./section_window";
 import type { SectionWindow } from "./section_window";
+import { svgPoints } from "./svg_points";
 
 interface OverlayProps {
   state: ExplorerState;
@@ -24,14 +26,7 @@ export function SectionOverlay({ state, tools, draft }: OverlayProps) {
     const [x, y] = pixelAt(window, inPlane(window.frame, point));
     return [x / ratio, y / ratio];
   };
-  const path = (points: readonly Vector3[]) =>
-    points
-      .map((point) =>
-        at(point)
-          .map((v) => v.toFixed(1))
-          .join(","),
-      )
-      .join(" ");
+  const path = (points: readonly Vector3[]) => svgPoints(points, at);
   const playing = state.frame.value !== null;
   const picture = state.shownPicture.value;
   const polygon = playing || picture.whole ? picture.record.polygon_um : placed.polygon;
@@ -138,7 +133,7 @@ function Distance({ from, to, at }: { from: Vector3; to: Vector3 | null; at: At 
 }
 
 function ScaleBar({ window, ratio }: { window: SectionWindow; ratio: number }) {
-  const um = barLength((window.pixel * window.width) / 4);
+  const um = roundLength((window.pixel * window.width) / 4);
   const width = um / window.pixel / ratio;
   const bottom = window.height / ratio - 14;
   return (

@@ -1,9 +1,9 @@
+import { lengthWords } from "../ui/lengths";
 import { fixed } from "../ui/numbers";
 import type { ExplorerState } from "./explorer_state";
 import { layerAt } from "./geometry/cuboid";
 import { norm, subtract } from "./geometry/vector3";
 import type { SectionTools } from "./section_tools";
-import { lengthWords } from "./section_window";
 
 interface Props {
   state: ExplorerState;

@@ -1,6 +1,7 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 
+import { capital } from "../shell/capital";
 import type { ExplorerState } from "./explorer_state";
 import type { Vector3 } from "./geometry/vector3";
 import { pressedOnSection, sectionKeys } from "./section_keys";
@@ -15,8 +16,7 @@ interface Props {
 }
 
 /** As a person writes what the tool says on a terminal. */
-const sentence = (text: string): string =>
-  (text.charAt(0).toUpperCase() + text.slice(1)).replace(/ um\b/g, "\u00a0µm");
+const sentence = (text: string): string => capital(text).replace(/ um\b/g, "\u00a0µm");
 
 /** The section's picture, pixel for pixel of the screen where it is sharp. */
 export function SectionView({ state, tools }: Props) {

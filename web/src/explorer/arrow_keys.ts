@@ -1,4 +1,5 @@
 import type { ExplorerState } from "./explorer_state";
+import { nudge, turn } from "./plane_moves";
 
 /** Right and down, of each arrow key. */
 export const arrows: Record<string, [number, number]> = {
@@ -10,7 +11,7 @@ export const arrows: Record<string, [number, number]> = {
 
 /** Up and down by a step along its normal, left and right by a degree of tilt. */
 export function moveByArrow(state: ExplorerState, [right, down]: [number, number]): void {
-  if (down !== 0) state.nudge(down);
+  if (down !== 0) nudge(state, down);
   const tilt = state.shownPlane.value?.angles.tilt ?? 0;
-  if (right !== 0) state.turn({ tilt: Math.min(90, Math.max(0, tilt + right)) });
+  if (right !== 0) turn(state, { tilt: Math.min(90, Math.max(0, tilt + right)) });
 }

@@ -1,6 +1,7 @@
 import { effect } from "@preact/signals";
 import type { ReadonlySignal } from "@preact/signals";
 
+import { isDark } from "../ui/dark_scheme";
 import type { CuboidRenderer, SceneColours } from "./cuboid_scene";
 import type { ExplorerState } from "./explorer_state";
 import { depthOfLayer } from "./geometry/cuboid";
@@ -14,7 +15,6 @@ export function drawOnDemand(
   renderer: ReadonlySignal<CuboidRenderer | null>,
   projection: ReadonlySignal<Projection>,
   size: ReadonlySignal<ElementSize>,
-  scheme: ReadonlySignal<number>,
 ): () => void {
   let frame = 0;
   const draw = () => {
@@ -42,7 +42,7 @@ export function drawOnDemand(
     );
   };
   const stop = effect(() => {
-    void [renderer.value, projection.value, size.value, scheme.value];
+    void [renderer.value, projection.value, size.value, isDark.value];
     void [state.shownPlane.value, state.shownPicture.value];
     void [state.cuboid.value, state.layersPresent.value];
     if (frame === 0) frame = requestAnimationFrame(draw);

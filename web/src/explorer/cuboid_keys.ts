@@ -5,6 +5,7 @@ import { surfaceUnder } from "./box_surface";
 import type { ExplorerState } from "./explorer_state";
 import { orbited, projected, startingCamera, zoomed } from "./orbit_camera";
 import type { Projection } from "./orbit_camera";
+import { movePoint, nudge } from "./plane_moves";
 
 /** What the keys do, for those who can't see what is under their hands. */
 export const cuboidKeys =
@@ -32,8 +33,8 @@ export function pressedOnCuboid(
     state.camera.value = zoomed(state.camera.value, 1.25);
   } else if (event.key === "-") state.camera.value = zoomed(state.camera.value, 0.8);
   else if (event.key === "0") state.camera.value = startingCamera;
-  else if (event.key === "PageDown") state.nudge(10);
-  else if (event.key === "PageUp") state.nudge(-10);
+  else if (event.key === "PageDown") nudge(state, 10);
+  else if (event.key === "PageUp") nudge(state, -10);
   else return;
   event.preventDefault();
 }
@@ -49,5 +50,5 @@ function movePointBy(
   if (!point) return;
   const [x, y] = projected(view, point);
   const wanted: [number, number] = [x + right * pixels, y + down * pixels];
-  state.movePoint(index, surfaceUnder(view, wanted, state.far.value, point));
+  movePoint(state, index, surfaceUnder(view, wanted, state.far.value, point));
 }

@@ -3,23 +3,11 @@ import { batch, computed, signal } from "@preact/signals";
 import type { Sample } from "../api/types";
 import { depthOfLayer, extent, leastSpacing } from "./geometry/cuboid";
 import type { Cuboid } from "./geometry/cuboid";
-import type { Angles } from "./geometry/plane";
 import type { PlaneRectangle } from "./geometry/plane_rectangle";
 import type { Vector3 } from "./geometry/vector3";
 import { startingCamera } from "./orbit_camera";
 import type { OrbitCamera } from "./orbit_camera";
-import {
-  alongLayers,
-  alongXz,
-  alongYz,
-  diagonal,
-  nudged,
-  placePlane,
-  withAngles,
-  withNormal,
-  withOffset,
-  withPoint,
-} from "./plane_state";
+import { alongLayers, diagonal, placePlane } from "./plane_state";
 import type { PlacedPlane, PlaneDefinition } from "./plane_state";
 import { defaultChoices } from "./section_choices";
 import type { SectionChoices, Theta } from "./section_choices";
@@ -76,6 +64,13 @@ export class ExplorerState {
   readonly far = computed<Vector3>(() => {
     const cuboid = this.cuboid.value;
     return cuboid ? extent(cuboid) : [1, 1, 1];
+  });
+
+  /** Of the newest face; a block of a single layer yet has its whole depth. */
+  readonly depthPresent = computed(() => {
+    const cuboid = this.cuboid.value;
+    const layers = this.layersPresent.value;
+    return cuboid ? depthOfLayer(cuboid, layers > 1 ? layers : cuboid.size[2]) : 0;
   });
 
   readonly placed = computed<PlacedPlane | null>(() => {
@@ -214,15 +209,7 @@ export class ExplorerState {
     const cuboid = this.cuboid.value;
     if (!cuboid) return;
     if (this.follow.value) this.chooseNewest();
-    else if (!this.placed.value) this.definition.value = diagonal(cuboid, this.depthPresent());
-  }
-
-  /** Of the newest face; a block of a single layer yet has its whole depth. */
-  private depthPresent(): number {
-    const cuboid = this.cuboid.value;
-    const layers = this.layersPresent.value;
-    if (!cuboid) return 0;
-    return depthOfLayer(cuboid, layers > 1 ? layers : cuboid.size[2]);
+    else if (!this.placed.value) this.definition.value = diagonal(cuboid, this.depthPresent.value);
   }
 
   /** What of the sample is at a place of the panel, in CSS pixels; none beside the picture. */
@@ -253,64 +240,12 @@ export class ExplorerState {
     return true;
   }
 
-  private moveBy(change: (placed: PlacedPlane, cuboid: Cuboid) => PlaneDefinition): boolean {
-    const placed = this.shownPlane.value;
-    const cuboid = this.cuboid.value;
-    return placed !== null && cuboid !== null && this.move(change(placed, cuboid));
-  }
-
-  movePoint(index: number, point: Vector3): boolean {
-    return this.moveBy((placed) => withPoint(placed, index, point));
-  }
-
-  turn(angles: Partial<Angles>): void {
-    this.moveBy((placed) => {
-      const all = { ...placed.angles, ...angles };
-      this.azimuth.value = all.azimuth;
-      return withAngles(placed, all);
-    });
-  }
-
-  setNormal(normal: Vector3): boolean {
-    return this.moveBy((placed) => withNormal(placed, normal));
-  }
-
-  setThrough(through: Vector3): boolean {
-    return this.moveBy(({ definition, plane }) => ({
-      kind: "normal",
-      normal: definition.kind === "normal" ? definition.normal : plane.normal,
-      through,
-    }));
-  }
-
-  setOffset(offset: number): void {
-    this.moveBy((placed, cuboid) => withOffset(placed, offset, cuboid));
-  }
-
-  nudge(steps: number): void {
-    this.moveBy((placed, cuboid) => nudged(placed, steps, cuboid));
-  }
-
-  toLayer(layer: number): void {
-    this.moveBy((_, cuboid) =>
-      alongLayers(cuboid, Math.min(cuboid.size[2], Math.max(1, Math.round(layer)))),
-    );
-  }
-
   toNewest(): void {
     batch(() => {
       this.frame.value = null;
       this.follow.value = true;
       this.chooseNewest();
     });
-  }
-
-  stand(along: "xz" | "yz"): void {
-    this.moveBy(({ through }) => (along === "xz" ? alongXz(through) : alongYz(through)));
-  }
-
-  toDiagonal(): void {
-    this.moveBy((_, cuboid) => diagonal(cuboid, this.depthPresent()));
   }
 
   choose(choices: Partial<SectionChoices>): void {

@@ -35,6 +35,7 @@ function further(job: ExportJob, known: ExportJob | undefined): ExportJob {
 export class ExportJobs {
   readonly jobs = signal<ExportJob[]>([]);
   readonly failure = signal("");
+  private readonly forgotten = new Set<ExportJob["id"]>();
 
   /** Returns what ends it. */
   watch(): () => void {
@@ -44,8 +45,13 @@ export class ExportJobs {
 
   async learn(): Promise<void> {
     await this.attempt(async () => {
+      const before = new Set(this.jobs.value.map(({ id }) => id));
       const { exports } = await getJson<{ exports: ExportJob[] }>(path);
-      this.jobs.value = exports.map((job) => further(job, this.known(job.id)));
+      const told = new Set(exports.map(({ id }) => id));
+      // Of what was ordered or removed while it was on its way, the answer need not know.
+      const ordered = this.jobs.value.filter(({ id }) => !before.has(id) && !told.has(id));
+      const kept = exports.filter(({ id }) => !this.forgotten.has(id));
+      this.jobs.value = [...ordered, ...kept.map((job) => further(job, this.known(job.id)))];
     });
   }
 
@@ -57,7 +63,9 @@ export class ExportJobs {
   async remove(job: ExportJob): Promise<void> {
     await this.attempt(async () => {
       await deleteAt(`${path}/${job.id}`);
-      if (hasEnded(job)) this.jobs.value = this.jobs.value.filter(({ id }) => id !== job.id);
+      if (!hasEnded(job)) return;
+      this.forgotten.add(job.id);
+      this.jobs.value = this.jobs.value.filter(({ id }) => id !== job.id);
     });
   }
 

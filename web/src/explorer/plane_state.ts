@@ -121,6 +121,12 @@ export function withNormal(placed: PlacedPlane, normal: Vector3): PlaneDefinitio
   return { kind: "normal", normal, through: tidy(placed.through) };
 }
 
+/** As it was typed, where a point was; its normal stays. */
+export function withThrough({ definition, plane }: PlacedPlane, through: Vector3): PlaneDefinition {
+  const normal = definition.kind === "normal" ? definition.normal : plane.normal;
+  return { kind: "normal", normal, through };
+}
+
 /** Moved along its normal, as far as it still cuts the block. */
 export function withOffset(placed: PlacedPlane, offset: number, cuboid: Cuboid): PlaneDefinition {
   const { normal } = placed.plane;

@@ -1,4 +1,5 @@
 import { ApiError, getJson, request } from "../api/client";
+import { retryWaitMs } from "../api/retry_wait";
 import type { SectionRecord } from "./section_record";
 import { queryText } from "./section_query";
 import type { Query } from "./section_query";
@@ -29,9 +30,11 @@ export const sectionAddress = (query: Query): string => `/api/v1/section?${query
 export const fetchOutline = (query: Query, signal?: AbortSignal): Promise<SectionRecord> =>
   getJson(`/api/v1/section/outline?${queryText(query)}`, signal);
 
-const busy = new Set([429, 503]);
+const usualWait_ms = 500;
 
-/** Seconds after which a busy server wants to be asked again; null for a refusal that stands. */
-export function retryAfter(error: unknown): number | null {
-  return error instanceof ApiError && busy.has(error.status) ? (error.retryAfter ?? 0.5) : null;
-}
+/**
+ * After how long a busy server wants to be asked again; null for a refusal that stands, and where
+ * nobody answers: then it is the connection that has to come back.
+ */
+export const busyWait_ms = (error: unknown): number | null =>
+  error instanceof ApiError ? retryWaitMs(error, usualWait_ms) : null;

@@ -1,5 +1,6 @@
 import { arrows, moveByArrow } from "./arrow_keys";
 import type { ExplorerState } from "./explorer_state";
+import { nudge } from "./plane_moves";
 import type { SectionTools } from "./section_tools";
 import { movedBy } from "./section_window";
 import { zoomAbout } from "./section_zoom";
@@ -24,8 +25,8 @@ export function pressedOnSection(
   else if (event.key === "+" || event.key === "=") zoomAbout(state, 1.5);
   else if (event.key === "-") zoomAbout(state, 1 / 1.5);
   else if (event.key === "0") state.closeup.value = null;
-  else if (event.key === "PageDown") state.nudge(10);
-  else if (event.key === "PageUp") state.nudge(-10);
+  else if (event.key === "PageDown") nudge(state, 10);
+  else if (event.key === "PageUp") nudge(state, -10);
   else if (event.key === "Escape" && tools.tool.value !== "look") tools.take("look");
   else return;
   event.preventDefault();

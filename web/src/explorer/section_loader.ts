@@ -18,8 +18,8 @@ export interface SectionLoaderOptions {
   fetch: (asked: PictureRequest, signal: AbortSignal) => Promise<SectionPicture>;
   deliver: (picture: SectionPicture, asked: PictureRequest) => void;
   fail: (error: unknown) => void;
-  /** Seconds to wait before asking again; null for an error that asking again does not mend. */
-  retryAfter: (error: unknown) => number | null;
+  /** How long to wait before asking again; null for an error that asking again does not mend. */
+  busyWait_ms: (error: unknown) => number | null;
 }
 
 export const rest_ms = 150;
@@ -106,15 +106,15 @@ export class SectionLoader {
       this.options.deliver(picture, asked);
     } catch (error) {
       if (this.flight !== flight || isAbort(error)) return;
-      const seconds = this.options.retryAfter(error);
-      if (seconds === null) {
+      const wait = this.options.busyWait_ms(error);
+      if (wait === null) {
         this.options.fail(error);
         // Of the same wish the sharp picture would fail the same way.
         if (!asked.sharp && this.preview === null) this.sharp = null;
       } else {
         if (asked.sharp) this.sharp ??= asked;
         else this.preview ??= asked;
-        this.lastStart = performance.now() + seconds * 1000;
+        this.lastStart = performance.now() + wait;
       }
     }
     this.flight = null;

@@ -164,15 +164,3 @@ export function placementOf(
     height: same ? rows : rows * ratio,
   };
 }
-
-/** A length of 1, 2 or 5 times a power of ten for a scale bar, at most so many micrometres. */
-export function barLength(longest: number): number {
-  const power = 10 ** Math.floor(Math.log10(longest));
-  const times = [5, 2, 1].find((number) => number * power <= longest) ?? 1;
-  return times * power;
-}
-
-export function lengthWords(um: number): string {
-  const trimmed = (value: number) => String(Number(value.toPrecision(4)));
-  return um >= 1000 ? `${trimmed(um / 1000)}\u00a0mm` : `${trimmed(um)}\u00a0µm`;
-}

@@ -10,18 +10,16 @@ import type { PlaneDefinition } from "./plane_state";
 import { choicesQuery, queryText } from "./section_query";
 import type { Query } from "./section_query";
 import type { SectionPicture } from "./section_record";
-import { fetchPicture, retryAfter } from "./section_fetch";
+import { busyWait_ms, fetchPicture } from "./section_fetch";
 import { defaultSeries, framePixel, planeOf, seriesQuery } from "./series_choice";
 import type { SeriesChoice, SeriesFrame } from "./series_choice";
+import { SeriesPictures } from "./series_pictures";
 
 export const speeds = [2, 5, 10, 15, 25]; // frames in a second
-const atOnce = 2; // requests
-const ahead = 12; // frames that are fetched before they are shown
-const kept = 48; // pictures in memory
 const playedSide = 720; // pixels of a frame while it plays
 const rest_ms = 250;
 
-/** Plays a series: frames are fetched before it is their turn, and shown in time where they came. */
+/** Plays a series: shows its frames in time, where they have come. */
 export class SeriesPlayer {
   readonly choice = signal<SeriesChoice>(defaultSeries);
   readonly frames = signal<SeriesFrame[]>([]);
@@ -32,12 +30,10 @@ export class SeriesPlayer {
   readonly failure = signal("");
   readonly current = computed(() => this.frames.value[this.index.value] ?? null);
 
-  private query: Query = {};
   private loaded = ""; // what the frames are of
   private pixel = 1; // of the screen
-  private pictures = new Map<number, SectionPicture | null>(); // null: the plane misses the block
-  private flights = new Map<number, AbortController>();
-  private abort = new AbortController();
+  private pictures: SeriesPictures | null = null;
+  private loading = new AbortController();
   private timer: ReturnType<typeof setTimeout> | undefined;
   private restTimer: ReturnType<typeof setTimeout> | undefined;
 
@@ -46,6 +42,7 @@ export class SeriesPlayer {
   async play(): Promise<void> {
     if (!(await this.load())) return;
     clearTimeout(this.restTimer);
+    this.forgive();
     if (this.index.value + 1 >= this.frames.value.length) this.index.value = 0;
     this.playing.value = true;
     this.step();
@@ -60,9 +57,10 @@ export class SeriesPlayer {
   async scrub(index: number): Promise<void> {
     if (this.playing.value) this.pause();
     if (!(await this.load())) return;
+    this.forgive();
     this.index.value = index;
     this.show();
-    this.fetchAhead();
+    this.pictures?.wantFrom(index);
     this.sharpenAtRest();
   }
 
@@ -70,9 +68,7 @@ export class SeriesPlayer {
   close(): void {
     clearTimeout(this.timer);
     clearTimeout(this.restTimer);
-    this.abort.abort();
-    this.abort = new AbortController();
-    this.flights.clear();
+    this.loading.abort();
     batch(() => {
       this.playing.value = false;
       this.waiting.value = false;
@@ -80,8 +76,8 @@ export class SeriesPlayer {
       this.index.value = 0;
       this.state.frame.value = null;
     });
-    for (const picture of this.pictures.values()) picture?.image.close();
-    this.pictures.clear();
+    this.pictures?.close();
+    this.pictures = null;
     this.loaded = "";
   }
 
@@ -95,6 +91,7 @@ export class SeriesPlayer {
     this.state.move({ kind: "normal", normal: plane.normal, through });
   }
 
+  /** False where there is no series, or another one was asked for meanwhile. */
   private async load(): Promise<boolean> {
     const cuboid = this.state.cuboid.value;
     const placed = this.state.placed.value;
@@ -106,17 +103,18 @@ export class SeriesPlayer {
     if (name === this.loaded && this.frames.value.length > 0) return true;
     this.close();
     this.failure.value = "";
+    const { signal } = (this.loading = new AbortController());
     try {
       const { frames } = await getJson<{ frames: SeriesFrame[] }>(
         `/api/v1/series/frames?${queryText(query)}`,
-        this.abort.signal,
+        signal,
       );
+      if (signal.aborted) return false;
       const { width, height } = this.state.panel.value;
       this.pixel = framePixel(this.choice.value, choices.basis, frames, cuboid, width, height);
-      this.query = { ...query, ...choicesQuery(choices) };
+      this.pictures = this.picturesOf(frames, { ...query, ...choicesQuery(choices) });
       this.loaded = name;
       this.frames.value = frames;
-      for (const { cuts, index } of frames) if (!cuts) this.pictures.set(index, null);
       return frames.length > 0;
     } catch (error) {
       if (!isAbort(error)) this.failure.value = sentenceOf(error);
@@ -124,11 +122,34 @@ export class SeriesPlayer {
     }
   }
 
+  private picturesOf(frames: readonly SeriesFrame[], query: Query): SeriesPictures {
+    return new SeriesPictures({
+      cuts: frames.map(({ cuts }) => cuts),
+      fetch: (index, sharp, signal) =>
+        this.fetch({ ...query, index: String(index) }, sharp, signal),
+      came: (index) => this.came(index),
+      isShown: (picture) => picture === this.state.frame.value?.picture,
+    });
+  }
+
+  /** What failed before is tried once more. */
+  private forgive(): void {
+    this.failure.value = "";
+    this.pictures?.forgive();
+  }
+
   private step(): void {
     if (!this.playing.value) return;
+    const failure = this.pictures?.failure(this.index.value);
+    if (failure !== undefined) {
+      this.failure.value = sentenceOf(failure);
+      this.waiting.value = false;
+      this.pause();
+      return;
+    }
     const shown = this.show();
     this.waiting.value = !shown;
-    this.fetchAhead();
+    this.pictures?.wantFrom(this.index.value);
     if (!shown) return; // it goes on when the frame has come
     this.timer = setTimeout(() => {
       if (this.index.value + 1 >= this.frames.value.length) {
@@ -140,12 +161,18 @@ export class SeriesPlayer {
     }, 1000 / this.speed.value);
   }
 
+  private came(index: number): void {
+    if (index !== this.index.value) return;
+    if (this.waiting.value) this.step();
+    else if (!this.playing.value) this.show();
+  }
+
   /** False while the frame has not come. */
   private show(): boolean {
     const index = this.index.value;
-    const picture = this.pictures.get(index);
+    const picture = this.pictures?.at(index);
     if (picture) this.present(picture, index);
-    return picture !== undefined;
+    return this.pictures?.has(index) ?? false;
   }
 
   private present(picture: SectionPicture, index: number): void {
@@ -159,67 +186,16 @@ export class SeriesPlayer {
     this.state.frame.value = { picture, placed, pixel: same ? pixel_um : this.pixel };
   }
 
-  private fetchAhead(): void {
-    const wanted = Array.from({ length: ahead }, (_, i) => this.index.value + i).filter(
-      (index) => index < this.frames.value.length && !this.pictures.has(index),
-    );
-    for (const [index, flight] of this.flights) {
-      if (wanted.includes(index)) continue;
-      flight.abort();
-      this.flights.delete(index);
-    }
-    for (const index of wanted) {
-      if (this.flights.size >= atOnce) return;
-      if (!this.flights.has(index)) void this.fetch(index);
-    }
-  }
-
-  private async fetch(index: number): Promise<void> {
-    const flight = new AbortController();
-    this.flights.set(index, flight);
-    try {
-      const picture = await this.picture(index, false, flight.signal);
-      if (this.flights.get(index) !== flight) picture.image.close();
-      else this.keep(index, picture);
-    } catch (error) {
-      if (isAbort(error) || this.flights.get(index) !== flight) return;
-      const seconds = retryAfter(error);
-      if (seconds !== null) await new Promise((done) => setTimeout(done, seconds * 1000));
-      else this.keep(index, null);
-    }
-    if (this.flights.get(index) !== flight) return;
-    this.flights.delete(index);
-    if (index === this.index.value && this.waiting.value) this.step();
-    else if (index === this.index.value && !this.playing.value) this.show();
-    this.fetchAhead();
-  }
-
-  private async picture(
-    index: number,
-    sharp: boolean,
-    signal: AbortSignal,
-  ): Promise<SectionPicture> {
+  private async fetch(frame: Query, sharp: boolean, signal: AbortSignal): Promise<SectionPicture> {
     const { width, height } = this.state.panel.value;
     const part = sharp ? 1 : Math.min(1, playedSide / Math.max(width, height));
     const query: Query = {
-      ...this.query,
-      index: String(index),
+      ...frame,
       fit: `${Math.ceil(width * part)}x${Math.ceil(height * part)}`,
       ...(sharp ? { format: "png" } : { format: "jpeg", quality: "85" }),
     };
     const got = await fetchPicture(`/api/v1/series/frame?${queryText(query)}`, signal);
     return { ...got, sharp, whole: true };
-  }
-
-  private keep(index: number, picture: SectionPicture | null): void {
-    this.pictures.set(index, picture);
-    const shown = this.state.frame.value?.picture;
-    for (const [old, other] of this.pictures) {
-      if (this.pictures.size <= kept) return;
-      if (other === null || other === shown) continue;
-      this.pictures.delete(old);
-      other.image.close();
-    }
   }
 
   private sharpenAtRest(): void {
@@ -228,20 +204,21 @@ export class SeriesPlayer {
   }
 
   private async sharpen(): Promise<void> {
+    const { pictures } = this;
     const index = this.index.value;
-    if (this.playing.value || !this.frames.value[index]?.cuts) return;
+    if (!pictures || this.playing.value || !this.frames.value[index]?.cuts) return;
     try {
-      const picture = await this.picture(index, true, this.abort.signal);
-      if (this.playing.value || index !== this.index.value || !this.frames.value.length) {
+      const picture = await pictures.sharpened(index);
+      if (this.playing.value || index !== this.index.value) {
         picture.image.close();
         return;
       }
-      const before = this.pictures.get(index);
       this.present(picture, index);
-      this.pictures.set(index, picture);
-      before?.image.close();
+      pictures.put(index, picture);
     } catch (error) {
-      if (!isAbort(error) && retryAfter(error) !== null) this.sharpenAtRest();
+      if (isAbort(error) || pictures !== this.pictures) return;
+      if (busyWait_ms(error) !== null) this.sharpenAtRest();
+      else this.failure.value = sentenceOf(error);
     }
   }
 }

@@ -5,13 +5,19 @@ import { surfaceUnder } from "./box_surface";
 import type { ExplorerState } from "./explorer_state";
 import { Fingers } from "./fingers";
 import type { Vector3 } from "./geometry/vector3";
-import { orbited, zoomed } from "./orbit_camera";
+import { orbited, projected, zoomed } from "./orbit_camera";
 import type { Projection } from "./orbit_camera";
+import { movePoint } from "./plane_moves";
+import { chooseEdge, edgeUnder } from "./section_edge";
 
 const degreesPerPixel = 0.5;
 const reach = { mouse: 16, touch: 28 }; // how near to a point a press takes hold of it, CSS pixels
+const leastDrag = 4;
 
-/** Mouse and fingers on the block: they move the plane's points, turn the view and zoom it. */
+/**
+ * Mouse and fingers on the block: they move the plane's points, turn the view and zoom it, and
+ * choose the rectangle on an edge of the section.
+ */
 export function useCuboidPointer(
   canvas: { current: HTMLCanvasElement | null },
   state: ExplorerState,
@@ -24,6 +30,7 @@ export function useCuboidPointer(
     const fingers = new Fingers();
     let grip: [number, number] = [0, 0]; // from the pointer to the point it holds
     let last: Vector3 = [0, 0, 0];
+    let pressedAt: [number, number] | null = null; // where there is nothing to take hold of
 
     const at = (event: PointerEvent | WheelEvent): [number, number] => {
       const { left, top } = element.getBoundingClientRect();
@@ -36,6 +43,8 @@ export function useCuboidPointer(
     };
     const limitOf = (event: PointerEvent) =>
       event.pointerType === "mouse" ? reach.mouse : reach.touch;
+    const edgeAt = (place: [number, number], { pointerType }: PointerEvent) =>
+      edgeUnder(state, (point) => projected(projection.value, point), place, pointerType);
 
     const down = (event: PointerEvent) => {
       if (event.button !== 0) return;
@@ -44,6 +53,7 @@ export function useCuboidPointer(
       fingers.down(event.pointerId, ...place);
       const index = fingers.count === 1 ? nearest(place, limitOf(event)) : null;
       held.value = index;
+      pressedAt = fingers.count === 1 && index === null ? place : null;
       const placed = state.shownPlane.value;
       if (index === null || !placed) return;
       const [x, y] = handles.value[index];
@@ -53,7 +63,9 @@ export function useCuboidPointer(
     const move = (event: PointerEvent) => {
       const place = at(event);
       if (fingers.count === 0) {
-        element.classList.toggle("over-handle", nearest(place, limitOf(event)) !== null);
+        const overHandle = nearest(place, limitOf(event)) !== null;
+        element.classList.toggle("over-handle", overHandle);
+        element.classList.toggle("over-edge", !overHandle && edgeAt(place, event) !== null);
         return;
       }
       const moved = fingers.move(event.pointerId, ...place);
@@ -61,7 +73,7 @@ export function useCuboidPointer(
       if (held.value !== null) {
         const wanted: [number, number] = [place[0] + grip[0], place[1] + grip[1]];
         const point = surfaceUnder(projection.value, wanted, state.far.value, last);
-        if (state.movePoint(held.value, point)) last = point;
+        if (movePoint(state, held.value, point)) last = point;
         return;
       }
       const turned = orbited(
@@ -74,6 +86,14 @@ export function useCuboidPointer(
     const up = (event: PointerEvent) => {
       fingers.up(event.pointerId);
       held.value = null;
+      const place = at(event);
+      const clicked =
+        pressedAt !== null &&
+        event.type === "pointerup" &&
+        Math.hypot(place[0] - pressedAt[0], place[1] - pressedAt[1]) < leastDrag;
+      pressedAt = null;
+      const edge = clicked ? edgeAt(place, event) : null;
+      if (edge !== null) chooseEdge(state, edge);
     };
     const wheel = (event: WheelEvent) => {
       event.preventDefault();

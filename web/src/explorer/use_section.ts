@@ -3,9 +3,10 @@ import { useEffect } from "preact/hooks";
 
 import { isAbort, sentenceOf } from "../api/client";
 import { connection } from "../api/live";
+import { persistently } from "../api/retry_wait";
 import type { ExplorerState } from "./explorer_state";
 import { rectangleOf } from "./section_record";
-import { fetchOutline, fetchPicture, retryAfter } from "./section_fetch";
+import { fetchOutline, fetchPicture, busyWait_ms } from "./section_fetch";
 import { SectionLoader } from "./section_loader";
 import type { Wish } from "./section_loader";
 import { isKnownHere } from "./theta_frame";
@@ -21,7 +22,7 @@ export function useSection(state: ExplorerState): void {
       fail: (error) => {
         if (!isAbort(error)) state.failure.value = sentenceOf(error);
       },
-      retryAfter,
+      busyWait_ms,
     });
     let before: Wish | null = null;
     const stopWishing = effect(() => {
@@ -51,20 +52,21 @@ const withoutGeneration = (address: string): string => address.replace(/&generat
 const sameButGrown = (before: Wish, after: Wish): boolean =>
   withoutGeneration(before.sharp.address) === withoutGeneration(after.sharp.address);
 
-/** Calls when the connection is back after it was lost. */
+/** Calls when the connection is back after it was lost or given up. */
 function onBack(call: () => void): () => void {
-  let lost = false;
+  let away = false;
   return effect(() => {
     const { state } = connection.value;
-    if (state === "lost") lost = true;
-    else if (state === "live" && lost) {
-      lost = false;
+    if (state === "lost" || state === "resting") away = true;
+    else if (state === "live" && away) {
+      away = false;
       call();
     }
   });
 }
 
 const outlineRest_ms = 80;
+const usualWait_ms = 1000;
 
 /** Asks the server for an inscribed rectangle where no picture tells of it. */
 function watchRectangle(state: ExplorerState): () => void {
@@ -78,7 +80,7 @@ function watchRectangle(state: ExplorerState): () => void {
     if (!query || !needed || state.rectangle.value) return;
     timer = setTimeout(() => {
       abort = new AbortController();
-      fetchOutline(query, abort.signal).then(
+      persistently((signal) => fetchOutline(query, signal), abort.signal, usualWait_ms).then(
         (record) => {
           state.inscribed.value = { of: JSON.stringify(query), rectangle: rectangleOf(record) };
         },

@@ -5,8 +5,10 @@ import { Fingers } from "./fingers";
 import { cornersOf, inPlane, turnedBasis } from "./geometry/plane_rectangle";
 import { sectionBasis } from "./geometry/section_basis";
 import type { Vector3 } from "./geometry/vector3";
+import { chooseEdge, edgeUnder } from "./section_edge";
 import type { SectionTools } from "./section_tools";
 import { movedBy, pixelAt, sampleAtPixel } from "./section_window";
+import type { SectionWindow } from "./section_window";
 import { zoomAbout } from "./section_zoom";
 import { customBetween } from "./theta_frame";
 
@@ -15,7 +17,7 @@ const leastDrag = 4;
 
 type Place = [number, number];
 
-/** Mouse and fingers on the section: they look closer, measure, and draw the rectangle. */
+/** Mouse and fingers on the section: they look closer, measure, draw the rectangle or choose it. */
 export function useSectionPointer(
   box: { current: HTMLDivElement | null },
   state: ExplorerState,
@@ -36,6 +38,10 @@ export function useSectionPointer(
       x * state.panel.value.ratio,
       y * state.panel.value.ratio,
     ];
+    const toScreen = (window: SectionWindow, point: Vector3): Place => {
+      const [x, y] = pixelAt(window, inPlane(window.frame, point));
+      return [x / state.panel.value.ratio, y / state.panel.value.ratio];
+    };
     const placeOf = (place: Place): Vector3 | null => {
       const window = state.window.value;
       return window && sampleAtPixel(window, ...onScreen(place));
@@ -47,11 +53,16 @@ export function useSectionPointer(
       if (!window || !rectangle || !custom) return null;
       const corners = cornersOf(rectangle);
       const distances = corners.map((corner) => {
-        const [cx, cy] = pixelAt(window, inPlane(window.frame, corner));
-        return Math.hypot(cx / state.panel.value.ratio - x, cy / state.panel.value.ratio - y);
+        const [cx, cy] = toScreen(window, corner);
+        return Math.hypot(cx - x, cy - y);
       });
       const least = Math.min(...distances);
       return least > reach ? null : corners[(distances.indexOf(least) + 2) % 4];
+    };
+    const edgeAt = (place: Place, { pointerType }: PointerEvent): number | null => {
+      const window = state.window.value;
+      if (!window || tools.tool.value !== "look") return null;
+      return edgeUnder(state, (point) => toScreen(window, point), place, pointerType);
     };
     const moveCorner = (from: Vector3, to: Vector3) => {
       const placed = state.placed.value;
@@ -80,6 +91,7 @@ export function useSectionPointer(
     const move = (event: PointerEvent) => {
       const place = at(event);
       tools.pointer.value = place;
+      element.classList.toggle("over-edge", fingers.count === 0 && edgeAt(place, event) !== null);
       const moved = fingers.move(event.pointerId, ...place);
       const window = state.window.value;
       if (!moved || !window || state.frame.value) return;
@@ -106,7 +118,7 @@ export function useSectionPointer(
       if (draft.value) {
         const ends = draft.value;
         draft.value = null;
-        if (!clicked) {
+        if (!clicked && event.type === "pointerup") {
           state.around.value = true;
           const placed = state.placed.value;
           const custom =
@@ -115,9 +127,11 @@ export function useSectionPointer(
           if (custom) state.choose({ theta: custom });
           tools.take("look");
         }
-      } else if (clicked && tools.tool.value === "measure" && event.type === "pointerup") {
-        const point = state.sampleUnder(place);
+      } else if (clicked && event.type === "pointerup") {
+        const point = tools.tool.value === "measure" ? state.sampleUnder(place) : null;
+        const edge = opposite ? null : edgeAt(place, event);
         if (point) tools.measure(point);
+        else if (edge !== null) chooseEdge(state, edge);
       }
       opposite = null;
       pressedAt = null;

@@ -1,9 +1,10 @@
 import type { Attempt, LayerDetail } from "../api/types";
+import { capital } from "../shell/capital";
 import { bytes, fixed, micrometres, withUnit } from "../ui/numbers";
 import { MetricTable } from "./MetricTable";
 import { depthText } from "./sample_place";
 import { timeText } from "./time_text";
-import { slugWords, verdictWords } from "./verdict_words";
+import { slugWords, verdictWords } from "../journal/verdict_words";
 
 interface Props {
   layer: number;
@@ -103,6 +104,6 @@ function AttemptFacts({ attempt }: { attempt: Attempt }) {
 }
 
 function sentence(text: string): string {
-  const whole = text.charAt(0).toUpperCase() + text.slice(1);
+  const whole = capital(text);
   return /[.!?]$/.test(whole) ? whole : `${whole}.`;
 }

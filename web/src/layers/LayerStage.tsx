@@ -12,7 +12,7 @@ import { depthText, placeDecimals, toSample, type PixelSize } from "./sample_pla
 import { tileAt } from "./sharpness_map";
 import { useShownMap, type MapKind, type ShownMap } from "./sharpness_overlay";
 import { SharpnessTools } from "./SharpnessTools";
-import { slugWords, verdictWords } from "./verdict_words";
+import { slugWords, verdictWords } from "../journal/verdict_words";
 import type { Point, Viewport } from "./viewport";
 
 interface Props {

@@ -1,17 +1,17 @@
-import { signal, useSignal } from "@preact/signals";
-import type { ComponentChildren } from "preact";
+import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 
 import { sampleProgress } from "../api/live";
-import type { Attempt, LayerDetail } from "../api/types";
+import type { Attempt } from "../api/types";
 import { goTo, replaceHash, route } from "../shell/route";
 import { fixed } from "../ui/numbers";
 import { AttemptsPanel } from "./AttemptsPanel";
+import { chosenAttempt } from "./chosen_attempt";
 import { FilmStrip, stripPitch } from "./FilmStrip";
 import { useLayerDetail } from "./layer_detail";
-import { keepsKey, layerKey, type LayerKey } from "./layer_keys";
 import { layerHash, layerLink } from "./layer_link";
 import type { LayerFilter } from "./layer_sequence";
+import { LayerPanel } from "./LayerPanel";
 import "./layers.css";
 import { LayerStage } from "./LayerStage";
 import {
@@ -27,12 +27,10 @@ import {
   sequence,
   watchLayers,
 } from "./layers_state";
-import { shiftBy, zoomBy, zoomStep, zoomToPixels } from "./picture_controls";
 import type { PictureScreen } from "./picture_screen";
-import { RejectedList } from "./RejectedList";
 import type { MapKind } from "./sharpness_overlay";
 import { StripTools } from "./StripTools";
-import { verdictWords } from "./verdict_words";
+import { useLayerKeys } from "./use_layer_keys";
 import { useViewLink } from "./view_link";
 import type { Viewport } from "./viewport";
 import { itemsOfPage } from "./virtual_list";
@@ -96,36 +94,17 @@ function Layers() {
   const chooseAttempt = (attempt: Attempt) =>
     replaceHash(layerHash({ layer, attempt: attempt.attempt }, route.peek().query));
 
-  const act = (key: LayerKey) => {
-    switch (key.kind) {
-      case "step":
-        return step(key.by);
-      case "page":
-        return step(
-          key.by *
-            itemsOfPage({ count: sequence.value.count, pitch: stripPitch }, stripExtent.current),
-        );
-      case "first":
-        return chooseAt(0);
-      case "last":
-        return chooseAt(sequence.value.count - 1);
-      case "whole":
-        viewport.value = null;
-        return;
-    }
-    if (!screen.current) return;
-    switch (key.kind) {
-      case "larger":
-        return zoomBy(screen.current, zoomStep);
-      case "smaller":
-        return zoomBy(screen.current, 1 / zoomStep);
-      case "pixels":
-        return zoomToPixels(screen.current);
-      case "shift":
-        return shiftBy(screen.current, key.parts);
-    }
-  };
-  useKeys(act);
+  useLayerKeys({
+    step,
+    page: (by) =>
+      step(
+        by * itemsOfPage({ count: sequence.value.count, pitch: stripPitch }, stripExtent.current),
+      ),
+    first: () => chooseAt(0),
+    last: () => chooseAt(sequence.value.count - 1),
+    whole: () => (viewport.value = null),
+    screen: () => screen.current,
+  });
 
   if (!known) return null;
   const neighbours = [layer + 1, layer - 1].filter(
@@ -183,7 +162,7 @@ function Layers() {
           onExtent={(extent) => (stripExtent.current = extent)}
         />
       </div>
-      <Panel>
+      <LayerPanel>
         {exists && (
           <AttemptsPanel
             layer={layer}
@@ -194,62 +173,7 @@ function Layers() {
             onChoose={chooseAttempt}
           />
         )}
-      </Panel>
+      </LayerPanel>
     </>
-  );
-}
-
-/** The attempt that a link names; else the one that became the layer, or the last. */
-function chosenAttempt(
-  detail: LayerDetail | null,
-  number: number | null,
-  rejectedFirst: boolean,
-): Attempt | null {
-  const attempts = [...(detail?.attempts ?? [])].reverse();
-  const accepted = attempts.find(({ verdict }) => verdictWords(verdict).accepted);
-  const rejected = attempts.find(({ verdict }) => verdict === "rejected");
-  const usual = (rejectedFirst && rejected) || accepted || attempts[0];
-  return attempts.find(({ attempt }) => attempt === number) ?? usual ?? null;
-}
-
-function useKeys(act: (key: LayerKey) => void): void {
-  const latest = useRef(act);
-  latest.current = act;
-  useEffect(() => {
-    const press = (event: KeyboardEvent) => {
-      const key = layerKey(event);
-      if (!key || event.defaultPrevented || document.querySelector("dialog[open]")) return;
-      if (keepsKey(event.target instanceof Element ? event.target : null, key)) return;
-      event.preventDefault();
-      latest.current(key);
-    };
-    window.addEventListener("keydown", press);
-    return () => window.removeEventListener("keydown", press);
-  }, []);
-}
-
-/** Beside the picture: this layer, or the list of all rejected frames. */
-function Panel({ children }: { children: ComponentChildren }) {
-  const list = useSignal(false);
-  const choice = (label: string, isList: boolean) => (
-    <button
-      type="button"
-      class="segment-button"
-      aria-pressed={list.value === isList}
-      onClick={() => (list.value = isList)}
-    >
-      {label}
-    </button>
-  );
-  return (
-    <aside class="layer-panel" aria-label="About the layer">
-      {judged.value && (
-        <div class="segments" role="group" aria-label="Shown here">
-          {choice("This layer", false)}
-          {choice("Rejected frames", true)}
-        </div>
-      )}
-      {judged.value && list.value ? <RejectedList /> : children}
-    </aside>
   );
 }

@@ -1,6 +1,6 @@
 import type { Metric } from "../api/types";
 import { Table } from "../ui/Table";
-import { limitText, metricOrder, metricWords, valueText } from "./metric_words";
+import { limitText, metricOrder, metricWords, valueText } from "../journal/metric_words";
 
 /** The metrics of one attempt: those beyond their limit first, then sharpness before all else. */
 export function MetricTable({ metrics }: { metrics: readonly Metric[] }) {

@@ -1,14 +1,14 @@
 import { useEffect, useState } from "preact/hooks";
 
-import { getJson, isAbort, sentenceOf } from "../api/client";
-import { onAttempt } from "../api/live";
+import { getJson, isAbort, sentenceOf, withQuery } from "../api/client";
+import { onAttempt, onGap } from "../api/live";
 import type { Attempt, Rejected } from "../api/types";
 import { Button } from "../ui/Button";
 import { fixed } from "../ui/numbers";
 import { layerHash } from "./layer_link";
 import { useThumbnails } from "./thumbnails";
 import { timeText } from "./time_text";
-import { slugWords } from "./verdict_words";
+import { isRejected, slugWords } from "../journal/verdict_words";
 
 const pageLength = 50;
 
@@ -22,30 +22,33 @@ export function RejectedList() {
   const thumbnails = useThumbnails(1000);
   void thumbnails.version.value;
 
-  useEffect(
-    () => onAttempt((attempt) => attempt.verdict === "rejected" && setNews((told) => told + 1)),
-    [],
-  );
   useEffect(() => {
+    const heard = () => setNews((told) => told + 1);
+    const stops = [onAttempt(({ verdict }) => isRejected(verdict) && heard()), onGap(heard)];
+    return () => stops.forEach((stop) => stop());
+  }, []);
+  const fetchPage = (older: number | null) => {
     const ended = new AbortController();
-    const older = before === null ? "" : `&before=${before}`;
-    getJson<Rejected>(`/api/v1/rejected?limit=${pageLength}${older}`, ended.signal).then(
+    const address = withQuery("/api/v1/rejected", { limit: pageLength, before: older });
+    getJson<Rejected>(address, ended.signal).then(
       (answer) => {
-        setFrames((known) => merged(known, answer.rejected));
+        setFrames((known) => (older === null ? newest : merged)(known, answer.rejected));
         setCount(answer.count);
         setTrouble("");
       },
       (error: unknown) => !isAbort(error) && setTrouble(sentenceOf(error)),
     );
     return () => ended.abort();
-  }, [before, news]);
+  };
+  useEffect(() => fetchPage(null), [news]);
+  useEffect(() => (before === null ? undefined : fetchPage(before)), [before]);
   useEffect(() => {
     thumbnails.want(frames.flatMap((frame) => frame.image ?? []));
   }, [frames]);
 
   const last = frames[frames.length - 1];
   return (
-    <section class="rejected" aria-label="Rejected frames">
+    <section class="rejected-all" aria-label="Rejected frames">
       {trouble && <p class="notice notice-bad">{trouble}</p>}
       {count === 0 && <p class="muted">No frame has been rejected.</p>}
       <ul class="rejected-frames">
@@ -84,6 +87,12 @@ function RejectedPicture({ kept, url }: { kept: boolean; url: string | undefined
       {!kept && <span class="film-note">not kept</span>}
     </span>
   );
+}
+
+/** With the newest page; where that does not reach down to what is known, it stands alone. */
+function newest(known: Attempt[], page: Attempt[]): Attempt[] {
+  const reaches = page.length < pageLength || page.some(({ id }) => id === known[0]?.id);
+  return reaches ? merged(known, page) : page;
 }
 
 /** Each frame once, the newest first. */

@@ -1,9 +1,9 @@
 import { useEffect, useState } from "preact/hooks";
 
 import { getJson, isAbort, sentenceOf } from "../api/client";
+import { persistently } from "../api/retry_wait";
 import type { LayerDetail, Sharpness } from "../api/types";
 import { committed, marks } from "./layers_state";
-import { retryWaitMs } from "./retry_wait";
 
 export interface Answer<T> {
   readonly value: T | null;
@@ -24,22 +24,14 @@ function useAnswer<T>(address: string | null, version = ""): Answer<T> {
   useEffect(() => {
     if (address === null) return;
     const ended = new AbortController();
-    let retry: ReturnType<typeof setTimeout> | undefined;
-    const ask = () =>
-      void getJson<T>(address, ended.signal).then(
-        (value) => setState({ address, answer: { value, trouble: "" } }),
-        (error: unknown) => {
-          if (isAbort(error)) return;
-          const wait = retryWaitMs(error, usualWaitMs);
-          if (wait !== null) retry = setTimeout(ask, wait);
-          else setState({ address, answer: { value: null, trouble: sentenceOf(error) } });
-        },
-      );
-    ask();
-    return () => {
-      ended.abort();
-      clearTimeout(retry);
-    };
+    persistently((signal) => getJson<T>(address, signal), ended.signal, usualWaitMs).then(
+      (value) => setState({ address, answer: { value, trouble: "" } }),
+      (error: unknown) => {
+        if (isAbort(error)) return;
+        setState({ address, answer: { value: null, trouble: sentenceOf(error) } });
+      },
+    );
+    return () => ended.abort();
   }, [address, version]);
 
   return address !== null && state.address === address ? state.answer : onItsWay;

@@ -1,7 +1,8 @@
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
-import { ConnectionError, getJson, sentenceOf } from "../api/client";
+import { getJson, sentenceOf } from "../api/client";
 import { onAttempt, onGap, sampleProgress, service, status } from "../api/live";
+import { retryWaitMs } from "../api/retry_wait";
 import type { History, Sample } from "../api/types";
 import { highestMarked, marksWith, noMarks, type JudgedAttempt } from "./layer_marks";
 import { filteredLayers, type LayerFilter } from "./layer_sequence";
@@ -80,12 +81,14 @@ interface Asking {
   end(): void;
 }
 
-/** Asks one thing at a time, and again after a while when nobody answered. */
+/** Asks one thing at a time, once more if that was wished meanwhile, and again where it may help. */
 function asking(ask: (signal: AbortSignal) => Promise<void>, trouble: Signal<string>): Asking {
   const ended = new AbortController();
   let underWay = false;
+  let wished = false; // while it was under way: what is on its way may be older than the wish
   let retry: ReturnType<typeof setTimeout> | undefined;
   const now = () => {
+    wished = underWay;
     if (underWay) return;
     clearTimeout(retry);
     underWay = true;
@@ -95,11 +98,13 @@ function asking(ask: (signal: AbortSignal) => Promise<void>, trouble: Signal<str
       })
       .catch((error: unknown) => {
         if (ended.signal.aborted) return;
-        if (error instanceof ConnectionError) retry = setTimeout(now, retryMs);
-        else trouble.value = sentenceOf(error);
+        const wait = retryWaitMs(error, retryMs);
+        if (wait === null) trouble.value = sentenceOf(error);
+        else retry = setTimeout(now, wait);
       })
       .finally(() => {
         underWay = false;
+        if (wished && !ended.signal.aborted) now();
       });
   };
   const end = () => {

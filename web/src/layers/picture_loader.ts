@@ -1,4 +1,4 @@
-import { retryWaitMs } from "./retry_wait";
+import { retryWaitMs } from "../api/retry_wait";
 
 /**
  * Fetches pictures in the order in which they are wanted, a few at a time, and keeps a bounded

@@ -1,3 +1,4 @@
+import { metricWords } from "../journal/metric_words";
 import { decimalsOf, fixed, micrometres, percent } from "../ui/numbers";
 import { LayerChart } from "./LayerChart";
 
@@ -15,7 +16,7 @@ export function Charts() {
         name="sharpness_ratio"
         title="Sharpness"
         about="against the layer’s focus or the last layers; 1 is as sharp"
-        limit="least"
+        bound={metricWords("sharpness_ratio").bound}
         text={ratio}
         tick={plainTick}
       />
@@ -23,7 +24,7 @@ export function Charts() {
         name="brightness"
         title="Brightness"
         about="change against the last layers"
-        limit="either_way"
+        bound={metricWords("brightness").bound}
         text={change}
         tick={changeTick}
       />
@@ -31,7 +32,7 @@ export function Charts() {
         name="column_um"
         title="Focus position"
         about="of the column, in µm"
-        limit="none"
+        bound="none"
         text={place}
         tick={plainTick}
       />

@@ -1,10 +1,12 @@
 import { useEffect, useState } from "preact/hooks";
 
 import { getBlob, withQuery } from "../api/client";
+import { persistently } from "../api/retry_wait";
 import { hashOf } from "../shell/route";
 import { fixed } from "../ui/numbers";
 
 const width_px = 640;
+const usualWait_ms = 3000;
 
 /** The photograph of the last layer that was stored. */
 export function LatestFace({ layer }: { layer: number }) {
@@ -14,9 +16,9 @@ export function LatestFace({ layer }: { layer: number }) {
     if (layer <= 0) return undefined;
     const given = new AbortController();
     const path = withQuery(`/api/v1/layers/${layer}/image`, { width: width_px });
-    getBlob(path, given.signal).then(
+    persistently((signal) => getBlob(path, signal), given.signal, usualWait_ms).then(
       (blob) => setFace({ layer, url: URL.createObjectURL(blob) }),
-      // The next layer's picture comes soon.
+      // The face before it is shown, with its number; the Layers view tells what is wrong with it.
       () => undefined,
     );
     return () => given.abort();

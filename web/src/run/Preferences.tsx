@@ -6,7 +6,7 @@ import { Switch } from "../ui/Switch";
 
 /** What one does now and then: the sound of alarms, calibrations. */
 export function Preferences({ status, lost }: { status: Status; lost: boolean }) {
-  const allowed = calibrations.filter(({ name }) => status.commands?.includes(name));
+  const allowed = calibrations.filter(({ name }) => status.commands.includes(name));
   const { calibration } = status;
   return (
     <section class="panel preferences" aria-label="More">

@@ -1,12 +1,69 @@
-import type { Status, Window } from "../api/types";
-import { fixed, micrometres, withUnit } from "../ui/numbers";
+import type { StageStatus, Status } from "../api/types";
+import { fixed, withUnit } from "../ui/numbers";
 import { InterlockList } from "./InterlockList";
 import { fit, windowWords } from "./window_words";
 
+interface Instrument {
+  name: string;
+  value: (stage: StageStatus) => number;
+  decimals: number;
+  unit: string;
+  /** In the status's `limits`; without one nothing is too low or too high. */
+  limit?: string;
+  /** What a value outside the limit is. */
+  outside?: { low: string; high: string };
+}
+
+const temperature = { low: "too cold", high: "too warm" };
+const strain = { low: "too little", high: "too much" };
+
+const instruments: Instrument[] = [
+  {
+    name: "Block temperature",
+    value: ({ temperatures_c }) => temperatures_c.block,
+    decimals: 1,
+    unit: "°C",
+    limit: "block_temperature_c",
+    outside: temperature,
+  },
+  {
+    name: "Chamber temperature",
+    value: ({ temperatures_c }) => temperatures_c.chamber,
+    decimals: 1,
+    unit: "°C",
+    limit: "chamber_temperature_c",
+    outside: temperature,
+  },
+  {
+    name: "Spindle load",
+    value: ({ spindle }) => spindle.load_percent,
+    decimals: 0,
+    unit: "%",
+    limit: "spindle_load_percent",
+    outside: strain,
+  },
+  { name: "Spindle speed", value: ({ spindle }) => spindle.rpm, decimals: 0, unit: "rpm" },
+  {
+    name: "Vibration",
+    value: ({ vibration_mm_s }) => vibration_mm_s,
+    decimals: 2,
+    unit: "mm/s",
+    limit: "vibration_mm_s",
+    outside: strain,
+  },
+  position("Feed (wheel)", "feed"),
+  position("Traverse (0 is under the camera)", "traverse"),
+  position("Column (camera)", "column"),
+  position("Ground to", "ground_to"),
+];
+
+function position(name: string, axis: keyof StageStatus["positions_um"]): Instrument {
+  return { name, value: ({ positions_um }) => positions_um[axis], decimals: 1, unit: "µm" };
+}
+
 /** What the rig's instruments show. */
 export function RigReadings({ status }: { status: Status }) {
-  const { stage } = status;
-  const limits = status.limits ?? {};
+  const { stage, limits } = status;
   return (
     <section class="panel rig" aria-label="Rig">
       <h2>Rig</h2>
@@ -16,47 +73,9 @@ export function RigReadings({ status }: { status: Status }) {
       )}
       {stage ? (
         <dl class="readings">
-          <Reading
-            name="Block temperature"
-            value={stage.temperatures_c.block}
-            decimals={1}
-            unit="°C"
-            window={limits.block_temperature_c}
-            low="too cold"
-            high="too warm"
-          />
-          <Reading
-            name="Chamber temperature"
-            value={stage.temperatures_c.chamber}
-            decimals={1}
-            unit="°C"
-            window={limits.chamber_temperature_c}
-            low="too cold"
-            high="too warm"
-          />
-          <Reading
-            name="Spindle load"
-            value={stage.spindle.load_percent}
-            decimals={0}
-            unit="%"
-            window={limits.spindle_load_percent}
-            low="too little"
-            high="too much"
-          />
-          <Reading name="Spindle speed" value={stage.spindle.rpm} decimals={0} unit="rpm" />
-          <Reading
-            name="Vibration"
-            value={stage.vibration_mm_s}
-            decimals={2}
-            unit="mm/s"
-            window={limits.vibration_mm_s}
-            low="too little"
-            high="too much"
-          />
-          <Position name="Feed (wheel)" value={stage.positions_um.feed} />
-          <Position name="Traverse (0 is under the camera)" value={stage.positions_um.traverse} />
-          <Position name="Column (camera)" value={stage.positions_um.column} />
-          <Position name="Ground to" value={stage.positions_um.ground_to} />
+          {instruments.map((instrument) => (
+            <Reading key={instrument.name} instrument={instrument} stage={stage} limits={limits} />
+          ))}
         </dl>
       ) : (
         <p class="muted">The controller has not answered yet.</p>
@@ -66,16 +85,15 @@ export function RigReadings({ status }: { status: Status }) {
 }
 
 interface ReadingProps {
-  name: string;
-  value: number;
-  decimals: number;
-  unit: string;
-  window?: Window | null;
-  low?: string;
-  high?: string;
+  instrument: Instrument;
+  stage: StageStatus;
+  limits: Status["limits"];
 }
 
-function Reading({ name, value, decimals, unit, window, low, high }: ReadingProps) {
+function Reading({ instrument, stage, limits }: ReadingProps) {
+  const { name, decimals, unit, limit, outside } = instrument;
+  const value = instrument.value(stage);
+  const window = limit === undefined ? null : limits[limit];
   const fits = fit(value, window);
   const words = windowWords(window, unit, decimals);
   return (
@@ -83,19 +101,9 @@ function Reading({ name, value, decimals, unit, window, low, high }: ReadingProp
       <dt>{name}</dt>
       <dd>
         {withUnit(fixed(value, decimals), unit)}
-        {fits === "low" && <strong class="bad"> {low}</strong>}
-        {fits === "high" && <strong class="bad"> {high}</strong>}
+        {(fits === "low" || fits === "high") && <strong class="bad"> {outside?.[fits]}</strong>}
         {words && <small>{words}</small>}
       </dd>
-    </div>
-  );
-}
-
-function Position({ name, value }: { name: string; value: number }) {
-  return (
-    <div class="reading">
-      <dt>{name}</dt>
-      <dd>{micrometres(value)}</dd>
     </div>
   );
 }

@@ -1,22 +1,10 @@
 import type { Attempt, History } from "../api/types";
-
-/** Whether a frame was not taken for the layer. */
-export const isRejected = (verdict: string): boolean =>
-  verdict === "rejected" || verdict === "not_stored";
+import { isRejected } from "../journal/verdict_words";
 
 /** Of a metric, or of the focus position: a value for each attempt, and what it was held against. */
 export interface Column {
   value: (number | null)[];
   limit: (number | null)[];
-}
-
-/** A rejected attempt, to be listed. */
-export interface RejectedNote {
-  id: number;
-  layer: number;
-  attempt: number;
-  slug: string;
-  reason: string;
 }
 
 /**
@@ -29,8 +17,6 @@ export class AttemptHistory {
   readonly rejected: boolean[] = [];
   readonly columns = new Map<string, Column>();
   rejectedCount = 0;
-  /** Of those that came while one was looking; the newest first, no more than twenty. */
-  readonly rejectedOfLate: RejectedNote[] = [];
 
   /** `metrics`: which are kept. */
   constructor(readonly metrics: readonly string[]) {
@@ -63,11 +49,6 @@ export class AttemptHistory {
       const metric = attempt.metrics.find((candidate) => candidate.name === name);
       return [metric?.value ?? null, metric?.limit ?? null];
     });
-    if (isRejected(attempt.verdict)) {
-      const { id, layer, slug, reason } = attempt;
-      this.rejectedOfLate.unshift({ id, layer, attempt: attempt.attempt, slug, reason });
-      this.rejectedOfLate.splice(20);
-    }
     return true;
   }
 

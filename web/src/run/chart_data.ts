@@ -1,7 +1,9 @@
+import type { Bound } from "../journal/metric_words";
 import type { AttemptHistory } from "./attempt_history";
 
-/** Which way a limit counts. */
-export type LimitKind = "least" | "most" | "either_way" | "none";
+/** How many lines a limit is drawn as. */
+export const limitLines = (bound: Bound): 0 | 1 | 2 =>
+  bound === "none" ? 0 : bound === "within" ? 2 : 1;
 
 /**
  * For a chart over layers, as uPlot takes it: layers, accepted values, rejected values, the limit,
@@ -10,13 +12,14 @@ export type LimitKind = "least" | "most" | "either_way" | "none";
  */
 export type ChartData = (number | null)[][];
 
-export function chartData(history: AttemptHistory, name: string, kind: LimitKind): ChartData {
+export function chartData(history: AttemptHistory, name: string, bound: Bound): ChartData {
   const { value, limit } = history.column(name);
   const accepted = value.map((one, row) => (history.rejected[row] ? null : one));
   const rejected = value.map((one, row) => (history.rejected[row] ? one : null));
   const data: ChartData = [[...history.layer], accepted, rejected];
-  if (kind !== "none") data.push(limit);
-  if (kind === "either_way") data.push(limit.map((one) => (one === null ? null : -one)));
+  const lines = limitLines(bound);
+  if (lines > 0) data.push(limit);
+  if (lines > 1) data.push(limit.map((one) => (one === null ? null : -one)));
   return data;
 }
 

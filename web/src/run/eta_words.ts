@@ -13,7 +13,7 @@ export interface TimeLeft {
 /** `now` in milliseconds, `locale` as Intl takes it. */
 export function timeLeft(
   seconds: number | null,
-  range: [number, number] | null | undefined,
+  range: [number, number] | null,
   now: number,
   locale?: string,
 ): TimeLeft {
@@ -25,7 +25,7 @@ export function timeLeft(
   };
 }
 
-function rangeWords(range: [number, number] | null | undefined): string | null {
+function rangeWords(range: [number, number] | null): string | null {
   if (!range) return null;
   const [low, high] = range.map(durationWords);
   return low === high ? null : `${low} to ${high}`;

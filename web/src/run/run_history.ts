@@ -3,20 +3,21 @@ import { effect, signal } from "@preact/signals";
 import { ApiError, getJson, withQuery } from "../api/client";
 import { connection, onAttempt, onGap, sampleProgress, status } from "../api/live";
 import type { Attempt, History, Rejected } from "../api/types";
-import { AttemptHistory, type RejectedNote } from "./attempt_history";
+import { isRejected } from "../journal/verdict_words";
+import { AttemptHistory } from "./attempt_history";
 
 /** The job's attempts for the Run view: fetched once, then grown by what the stream tells. */
 
 export const chartMetrics = ["sharpness_ratio", "brightness"] as const;
 const rejectedShown = 20;
 const quickest_ms = 250; // between two looks of the charts at what is new
-const refused_ms = 10_000; // until a server that had too much to do is asked again
+const refused_ms = 10_000; // until a server that would not answer this is asked again
 
 export const history = new AttemptHistory(chartMetrics);
 /** Grows when `history` did. */
 export const historyVersion = signal(0);
 /** The newest first. */
-export const rejectedOfLate = signal<RejectedNote[]>([]);
+export const rejectedOfLate = signal<Attempt[]>([]);
 export const rejectedCount = signal(0);
 
 /** Attempts that came before the rest was fetched; null when all that is known is in `history`. */
@@ -42,9 +43,8 @@ function take(attempt: Attempt): void {
 
 function noteRejected(attempt: Attempt): void {
   rejectedCount.value = history.rejectedCount;
-  const { rejectedOfLate: seen } = history;
-  if (seen[0]?.id === attempt.id) {
-    rejectedOfLate.value = [seen[0], ...rejectedOfLate.value].slice(0, rejectedShown);
+  if (isRejected(attempt.verdict)) {
+    rejectedOfLate.value = [attempt, ...rejectedOfLate.value].slice(0, rejectedShown);
   }
   tell();
 }
@@ -70,7 +70,8 @@ async function fetchAll(): Promise<void> {
     tell();
   } catch (error) {
     // Without a connection it is fetched with the next one.
-    if (error instanceof ApiError) setTimeout(() => void fetchAll(), refused_ms);
+    const answers = error instanceof ApiError || connection.peek().state === "live";
+    if (answers) setTimeout(() => void fetchAll(), refused_ms);
     else missed = true;
   } finally {
     fetching = false;

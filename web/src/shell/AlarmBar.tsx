@@ -19,7 +19,7 @@ export function AlarmBar() {
       <AlarmSign />
       <div role="alert">
         <p class="alarm-cause">{isStart ? capital(cause) : `Alarm: ${cause}`}</p>
-        {advice && <p class="alarm-advice">{advice}</p>}
+        <p class="alarm-advice">{advice}</p>
         <p class="alarm-since">
           {isStart ? "" : `While the rig was ${wordsOf(state).short.toLowerCase()}, `}
           {isStart ? "Since" : "since"} <Since time={since} />
@@ -27,7 +27,7 @@ export function AlarmBar() {
       </div>
       <div class="alarm-actions">
         <SoundSwitch />
-        {shown.commands?.includes("acknowledge") && (
+        {shown.commands.includes("acknowledge") && (
           <Button onClick={() => askFor("acknowledge")}>Acknowledge…</Button>
         )}
       </div>

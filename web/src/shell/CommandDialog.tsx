@@ -20,8 +20,9 @@ function Asked({ command }: { command: Command }) {
   const [reason, setReason] = useState("");
   const [word, setWord] = useState("");
   const [answer, setAnswer] = useState<Answer>({ state: "none" });
+  // What was asked for can't be withdrawn, so that what comes of it must be seen.
   const close = () => {
-    commandAsked.value = null;
+    if (answer.state !== "waiting") commandAsked.value = null;
   };
   const confirmed = !command.confirmWord || word.trim().toLowerCase() === command.confirmWord;
   const send = async () => {
@@ -95,7 +96,9 @@ function Asked({ command }: { command: Command }) {
           >
             {answer.state === "waiting" ? "Asking…" : command.label}
           </Button>
-          <Button onClick={close}>Cancel</Button>
+          <Button disabled={answer.state === "waiting"} onClick={close}>
+            Cancel
+          </Button>
         </div>
       </form>
     </Dialog>

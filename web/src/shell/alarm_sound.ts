@@ -1,6 +1,6 @@
 import { effect, signal } from "@preact/signals";
 
-import { status } from "../api/live";
+import { connection, status } from "../api/live";
 import type { Status } from "../api/types";
 import { isStartLatch } from "./state_words";
 
@@ -77,7 +77,9 @@ let repeating: number | undefined;
 export function watchAlarms(): void {
   effect(() => {
     const alarm = alarmKey(status.value);
-    const sounds = soundWanted.value && alarm !== "" && alarm !== silenced.value;
+    // A tab that rests does not hear that an alarm is over; another one sounds it.
+    const hears = connection.value.state !== "resting";
+    const sounds = soundWanted.value && hears && alarm !== "" && alarm !== silenced.value;
     if (sounds && repeating === undefined) {
       const ring = () => void play([880, 660, 880]);
       repeating = window.setInterval(ring, repeat_ms);
@@ -86,6 +88,10 @@ export function watchAlarms(): void {
       clearInterval(repeating);
       repeating = undefined;
     }
+  });
+  // It was switched in another tab.
+  window.addEventListener("storage", (event) => {
+    if (event.key === key) soundWanted.value = stored();
   });
   // A touch is what the browser waits for.
   const touched = () => {

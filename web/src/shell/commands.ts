@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 
-import { postJson } from "../api/client";
+import { ConnectionError, postJson } from "../api/client";
 
 /** A command that an operator may give. */
 export interface Command {
@@ -85,9 +85,14 @@ export function askFor(name: string): void {
     [...commands, ...calibrations].find((command) => command.name === name) ?? null;
 }
 
-/** The server's sentence on what is done now. Throws what request() throws. */
+/** The server's sentence on what is done now. Throws an error whose message says why it is not. */
 export async function give(command: Command, reason: string): Promise<string> {
   const body = reason.trim() ? { reason: reason.trim() } : {};
   const path = `/api/v1/control/${command.name}`;
-  return (await postJson<{ message: string }>(path, body)).message;
+  try {
+    return (await postJson<{ message: string }>(path, body)).message;
+  } catch (error) {
+    if (!(error instanceof ConnectionError)) throw error;
+    throw new Error(`${error.message} The rig’s state will show whether the command arrived.`);
+  }
 }

@@ -89,7 +89,7 @@ export const wordsOf = (state: JobState): Words =>
  * somebody has looked.
  */
 export function isStartLatch({ alarm }: Status): boolean {
-  return alarm?.kind ? alarm.kind === "start_latch" : alarm?.state === "faulted";
+  return alarm?.kind === "start_latch";
 }
 
 /** The whole of it in a sentence or two. */

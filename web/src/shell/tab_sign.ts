@@ -18,7 +18,8 @@ export function tabTitle(
   const place = sample ? `${sample} – Biotomy` : "Biotomy";
   if (now?.alarm && !isStartLatch(now)) return `⚠ ALARM – ${place}`;
   if (state === "lost") return `Connection lost – ${place}`;
-  if (!now) return place;
+  // What was so when somebody last looked need not be so now; only an alarm is worth a look anyhow.
+  if (!now || state === "resting") return place;
   const { short } = wordsOf(now.state);
   return `${short}${now.layers > 0 ? ` ${now.committed}/${now.layers}` : ""} – ${place}`;
 }

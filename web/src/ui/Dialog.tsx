@@ -13,6 +13,7 @@ interface Props {
 /** A modal dialog: the browser's own, which keeps the focus and gives it back. */
 export function Dialog({ title, onClose, children, wide = false }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
+  const isOpen = useRef(true);
   const titleId = useId();
 
   useEffect(() => {
@@ -20,6 +21,7 @@ export function Dialog({ title, onClose, children, wide = false }: Props) {
     const before = document.activeElement;
     shown?.showModal?.();
     return () => {
+      isOpen.current = false;
       shown?.close?.();
       if (before instanceof HTMLElement) before.focus();
     };
@@ -32,6 +34,12 @@ export function Dialog({ title, onClose, children, wide = false }: Props) {
       aria-labelledby={titleId}
       onCancel={(event) => {
         event.preventDefault();
+        onClose();
+      }}
+      onClose={() => {
+        // By the browser: after a second Escape it no longer asks. Whether it may is the owner's to say.
+        if (!isOpen.current) return;
+        dialog.current?.showModal?.();
         onClose();
       }}
       onMouseDown={(event) => {

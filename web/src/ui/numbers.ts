@@ -36,9 +36,6 @@ export const withUnit = (text: string, unit: string): string =>
 export const micrometres = (value: MaybeNumber, decimals = 1): string =>
   withUnit(fixed(value, decimals), "µm");
 
-export const celsius = (value: MaybeNumber, decimals = 1): string =>
-  withUnit(fixed(value, decimals), "°C");
-
 export const percent = (value: MaybeNumber, decimals = 0): string =>
   withUnit(fixed(value, decimals), "%");
 

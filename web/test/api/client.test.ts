@@ -1,7 +1,14 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { ApiError, ConnectionError, getJson, postJson, withQuery } from "../../src/api/client";
+import {
+  ApiError,
+  ConnectionError,
+  getJson,
+  longestAnswer_ms,
+  postJson,
+  withQuery,
+} from "../../src/api/client";
 import { askAgain, setToken, token, tokenQuestion } from "../../src/api/token";
 
 const json = (value: unknown, status = 200, headers = {}) =>
@@ -49,6 +56,20 @@ describe("requests", () => {
     await expect(getJson("/x")).rejects.toBeInstanceOf(ConnectionError);
     fetched.mockRejectedValueOnce(new DOMException("stopped", "AbortError"));
     await expect(getJson("/x")).rejects.toMatchObject({ name: "AbortError" });
+  });
+
+  it("that change something do not wait for ever, from when they are sent", async () => {
+    const timeout = vi.spyOn(AbortSignal, "timeout");
+    fetched.mockResolvedValueOnce(refused(401, "a token is needed"));
+    const given = postJson("/b");
+    await settle();
+    expect(timeout).toHaveBeenCalledTimes(1);
+    fetched.mockRejectedValueOnce(new DOMException("too long", "TimeoutError"));
+    tokenQuestion.value?.answer("secret");
+    await expect(given).rejects.toBeInstanceOf(ConnectionError);
+    expect(timeout).toHaveBeenCalledTimes(2);
+    expect(timeout).toHaveBeenLastCalledWith(longestAnswer_ms);
+    expect(fetched.mock.calls[1][1]?.signal).toBe(timeout.mock.results[1].value);
   });
 
   it("ask once for a token, and send it in the header alone", async () => {

@@ -100,6 +100,8 @@ describe("EventStream", () => {
     server.write("id: 41\nevent: reload\ndata: {}\n\n");
     await settle();
     stream.forget();
+    server.write("event: status\ndata: {}\n\n"); // has no id of its own
+    await settle();
     server.end();
     await vi.advanceTimersByTimeAsync(2000);
     expect(server.requests[1].get("Last-Event-ID")).toBeNull();
@@ -138,6 +140,22 @@ describe("EventStream", () => {
     await vi.advanceTimersByTimeAsync(60_000);
     expect(server.requests).toHaveLength(1);
     expect(states).toEqual(["live"]);
+  });
+
+  it("opened again at once goes on after the last event, over one connection", async () => {
+    stream.open();
+    await settle();
+    server.write("id: 41\nevent: attempt\ndata: {}\n\n");
+    await settle();
+    stream.close();
+    stream.open();
+    await settle();
+    expect(states).toEqual(["live", "live"]);
+    expect(server.requests[1].get("Last-Event-ID")).toBe("41");
+    stream.hurry(); // it is open: there is nothing to hurry
+    await vi.advanceTimersByTimeAsync(silenceLimit_ms - 1000);
+    expect(server.requests).toHaveLength(2);
+    expect(states).toEqual(["live", "live"]);
   });
 
   it("asks for a token where one is needed, and sends it in the header", async () => {

@@ -2,6 +2,7 @@ import { beforeEach, describe, expect, it } from "vitest";
 
 import type { Sample } from "../../src/api/types";
 import { ExplorerState } from "../../src/explorer/explorer_state";
+import { movePoint, nudge, toLayer, turn } from "../../src/explorer/plane_moves";
 import type { SectionPicture, SectionRecord } from "../../src/explorer/section_record";
 import { parseView, viewQuery } from "../../src/explorer/view_hash";
 
@@ -70,7 +71,7 @@ describe("what is asked of the server", () => {
   });
 
   it("is a part at a finer pixel in a close-up, never finer than a voxel", () => {
-    state.toLayer(1);
+    toLayer(state, 1);
     state.closeup.value = { middle: [5000, 5000, 0], pixel: 12 };
     expect(sharp().get("pixel")).toBe("12");
     expect(sharp().get("theta")).toMatch(/^custom:/);
@@ -94,7 +95,7 @@ describe("the plane", () => {
     expect(state.placed.value!.offset).toBe(780);
     state.grow({ layers_present: 41, generation: 8 });
     expect(state.placed.value!.offset).toBe(800);
-    state.nudge(-1);
+    nudge(state, -1);
     state.grow({ layers_present: 42, generation: 9 });
     expect(state.placed.value!.offset).toBe(780);
     expect(state.follow.value).toBe(false);
@@ -103,14 +104,14 @@ describe("the plane", () => {
   it("stays where points on a line would be none", () => {
     const before = state.definition.value;
     const [first] = state.placed.value!.points;
-    expect(state.movePoint(1, first)).toBe(false);
+    expect(movePoint(state, 1, first)).toBe(false);
     expect(state.definition.value).toBe(before);
   });
 
   it("keeps the azimuth while its tilt goes through zero", () => {
-    state.turn({ tilt: 30, azimuth: 50 });
-    state.turn({ tilt: 0 });
-    state.turn({ tilt: 20 });
+    turn(state, { tilt: 30, azimuth: 50 });
+    turn(state, { tilt: 0 });
+    turn(state, { tilt: 20 });
     expect(state.placed.value!.angles.azimuth).toBeCloseTo(50, 3);
   });
 
@@ -130,7 +131,7 @@ describe("the plane", () => {
 describe("a close-up", () => {
   it("stays while the plane moves, unless what it saw may be outside", () => {
     state.closeup.value = { middle: [5000, 5000, 0], pixel: 5 };
-    state.nudge(1);
+    nudge(state, 1);
     expect(state.closeup.value).not.toBeNull();
     state.choose({ theta: { kind: "inscribed" } });
     expect(state.closeup.value).toBeNull();

@@ -52,6 +52,26 @@ describe("exports", () => {
     stop();
   });
 
+  it("are not overwritten by an answer that was given before they were ordered or removed", async () => {
+    const exports = new ExportJobs();
+    const stop = exports.watch();
+    const old = { ...job("done", 9), id: "old" };
+    tell(old);
+    let answer = (_: Response) => {};
+    vi.stubGlobal("fetch", async (_: string, { method }: RequestInit) => {
+      if (method === "DELETE") return new Response(null, { status: 204 });
+      if (method === "POST") return new Response(JSON.stringify(job("queued", 0)));
+      return new Promise<Response>((resolve) => (answer = resolve));
+    });
+    const learnt = exports.learn();
+    await exports.order(order);
+    await exports.remove(old);
+    answer(new Response(JSON.stringify({ exports: [old] })));
+    await learnt;
+    expect(exports.jobs.value.map(({ id }) => id)).toEqual(["a"]);
+    stop();
+  });
+
   it("go on with each event", () => {
     const exports = new ExportJobs();
     const stop = exports.watch();

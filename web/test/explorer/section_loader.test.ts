@@ -37,7 +37,7 @@ function bench() {
       }),
     deliver: ({ image }) => shown.push((image as unknown as { name: string }).name),
     fail: (error) => failures.push(error),
-    retryAfter: (error) => (error === "busy" ? 1 : null),
+    busyWait_ms: (error) => (error === "busy" ? 1000 : null),
   });
   const answerLast = async () => {
     asked[asked.length - 1].answer({} as SectionPicture);

@@ -3,11 +3,9 @@ import { describe, expect, it } from "vitest";
 import type { PlaneRectangle } from "../../src/explorer/geometry/plane_rectangle";
 import { inSample } from "../../src/explorer/geometry/plane_rectangle";
 import {
-  barLength,
   closeupWindow,
   evenPixel,
   fittingPixel,
-  lengthWords,
   movedBy,
   pixelAt,
   placeAt,
@@ -111,21 +109,10 @@ describe("the part that is seen", () => {
   });
 });
 
-describe("numbers for people", () => {
-  it("are round for a scale bar", () => {
-    expect(barLength(730)).toBe(500);
-    expect(barLength(0.3)).toBeCloseTo(0.2, 12);
-    expect(barLength(1000)).toBe(1000);
-  });
-
-  it("have five digits for a pixel, never above what was asked", () => {
+describe("the size of a pixel", () => {
+  it("has five digits, and is never above what was asked", () => {
     expect(readablePixel(12.345678)).toBe(12.345);
     expect(readablePixel(10)).toBe(10);
     expect(readablePixel(0.1)).toBe(0.1);
-  });
-
-  it("have a unit that suits them", () => {
-    expect(lengthWords(500)).toBe("500\u00a0µm");
-    expect(lengthWords(2500)).toBe("2.5\u00a0mm");
   });
 });

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { getJson } from "../../src/api/client";
+import { ApiError, getJson } from "../../src/api/client";
 import type { Sample } from "../../src/api/types";
 import { ExplorerState } from "../../src/explorer/explorer_state";
 import { fetchPicture } from "../../src/explorer/section_fetch";
@@ -113,5 +113,68 @@ describe("a series that plays", () => {
     await player.play();
     expect(player.failure.value).toBe("the step leads nowhere");
     expect(player.playing.value).toBe(false);
+  });
+
+  it("stops at a frame that can't be had and says why, and tries it again when asked", async () => {
+    const answer = vi.mocked(fetchPicture).getMockImplementation()!;
+    vi.mocked(fetchPicture).mockImplementation((address, signal) =>
+      /index=9\b/.test(address)
+        ? Promise.reject(new Error("the network is gone"))
+        : answer(address, signal),
+    );
+    await player.play();
+    await vi.advanceTimersByTimeAsync(500);
+    expect(player.playing.value).toBe(true);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(player.playing.value).toBe(false);
+    expect(player.index.value).toBe(9);
+    expect(player.failure.value).toBe("the network is gone");
+    vi.mocked(fetchPicture).mockImplementation(answer);
+    await player.play();
+    await vi.advanceTimersByTimeAsync(550);
+    expect(player.failure.value).toBe("");
+    expect(player.index.value).toBeGreaterThan(12);
+  });
+
+  it("waits as long as a busy server says, and then goes on", async () => {
+    const answer = vi.mocked(fetchPicture).getMockImplementation()!;
+    vi.mocked(fetchPicture).mockRejectedValueOnce(new ApiError(503, "busy", "too much to do", 2));
+    await player.play();
+    await vi.advanceTimersByTimeAsync(1900);
+    expect(player.index.value).toBe(1);
+    vi.mocked(fetchPicture).mockImplementation(answer);
+    await vi.advanceTimersByTimeAsync(400);
+    expect(player.index.value).toBeGreaterThan(1);
+    expect(player.failure.value).toBe("");
+  });
+
+  it("that was closed before its frames were known does not open after all", async () => {
+    let answer = (_: unknown) => {};
+    vi.mocked(getJson).mockReturnValue(new Promise((resolve) => (answer = resolve)));
+    const played = player.play();
+    player.close();
+    answer({ frames });
+    await played;
+    expect(player.frames.value).toEqual([]);
+    expect(player.playing.value).toBe(false);
+  });
+
+  it("gives back the memory of all but some pictures", async () => {
+    let open = 0;
+    vi.mocked(getJson).mockResolvedValue({
+      frames: Array.from({ length: 200 }, (_, index) => ({ ...frames[1], index, value: index })),
+    });
+    vi.mocked(fetchPicture).mockImplementation(() => {
+      open += 1;
+      const image = { close: () => (open -= 1) } as unknown as ImageBitmap;
+      const record = { pixel_um: 10, polygon_um: [] } as unknown as SectionRecord;
+      return Promise.resolve({ image, record });
+    });
+    await player.play();
+    await vi.advanceTimersByTimeAsync(15_000);
+    expect(player.index.value).toBeGreaterThan(140);
+    expect(open).toBeLessThanOrEqual(48);
+    player.close();
+    expect(open).toBe(0);
   });
 });

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 
 import type { Attempt, History } from "../../src/api/types";
-import { AttemptHistory, isRejected } from "../../src/run/attempt_history";
+import { isRejected } from "../../src/journal/verdict_words";
+import { AttemptHistory } from "../../src/run/attempt_history";
 import { chartData, firstRowFrom, lastOf } from "../../src/run/chart_data";
 
 function anAttempt(id: number, layer: number, changes: Partial<Attempt> = {}): Attempt {
@@ -78,14 +79,6 @@ describe("AttemptHistory", () => {
     expect(history.column("column_um").value).toEqual([null, 602]);
   });
 
-  it("lists the last rejected ones, the newest first and no more than twenty", () => {
-    const history = new AttemptHistory([]);
-    for (let id = 1; id <= 30; id += 1) history.append(anAttempt(id, id, blurred));
-    expect(history.rejectedOfLate).toHaveLength(20);
-    expect(history.rejectedOfLate[0]).toMatchObject({ id: 30, slug: "blurred" });
-    expect(history.rejectedCount).toBe(30);
-  });
-
   it("counts a frame that could not be stored among the rejected", () => {
     expect(isRejected("not_stored")).toBe(true);
     expect(isRejected("accepted_with_flag")).toBe(false);
@@ -103,7 +96,7 @@ describe("chartData", () => {
       [null, 1.02, null],
     ]);
     expect(chartData(history, "sharpness", "least")[3]).toEqual([0.96, 0.96, 0.96]);
-    expect(chartData(history, "sharpness", "either_way")[4]).toEqual([-0.96, -0.96, -0.96]);
+    expect(chartData(history, "sharpness", "within")[4]).toEqual([-0.96, -0.96, -0.96]);
   });
 
   it("does not change when the history grows", () => {

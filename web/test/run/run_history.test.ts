@@ -99,6 +99,15 @@ describe("the run's history", () => {
     expect(journal.asked).toHaveLength(2);
   });
 
+  it("lists the last rejected ones, the newest first and no more than twenty", async () => {
+    make(anAttempt(1));
+    await settle();
+    for (let id = 2; id <= 30; id += 1) make(anAttempt(id, "rejected"));
+    expect(run.rejectedOfLate.value).toHaveLength(20);
+    expect(run.rejectedOfLate.value[0]).toMatchObject({ id: 30, slug: "blurred" });
+    expect(run.rejectedCount.value).toBe(29);
+  });
+
   it("tells the charts of many attempts at once", async () => {
     make(anAttempt(1));
     await vi.advanceTimersByTimeAsync(300);
@@ -116,6 +125,17 @@ describe("the run's history", () => {
     make(anAttempt(4));
     await settle();
     expect(run.history.layer).toEqual([1, 2, 3, 4]);
+  });
+
+  it("asks again when one answer was lost though the stream goes on", async () => {
+    live.connection.value = { ...live.connection.value, state: "live" };
+    journal.attempts = [anAttempt(1)];
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("the connection was reset")));
+    make(anAttempt(2));
+    await settle();
+    vi.stubGlobal("fetch", journal.fetch);
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(run.history.layer).toEqual([1, 2]);
   });
 
   it("asks again when the server would not answer, and loses nothing", async () => {

@@ -26,7 +26,7 @@ describe("timeLeft", () => {
 
   it("leaves out a range that is no range", () => {
     expect(timeLeft(100, [100, 100], now).range).toBeNull();
-    expect(timeLeft(100, undefined, now).range).toBeNull();
+    expect(timeLeft(100, null, now).range).toBeNull();
   });
 });
 

@@ -50,6 +50,7 @@ const alarm = {
   cause: "the door is open",
   since: "2024-05-01T10:00:00Z",
   state: "grinding",
+  kind: "door",
   advice: "Close the door, then acknowledge.",
 } as const;
 
@@ -124,6 +125,45 @@ describe("alarm and commands", () => {
       await new Promise((resolve) => setTimeout(resolve));
     });
     expect(page().querySelector('dialog [role="alert"]')?.textContent).toBe("the job is done");
+  });
+
+  it("stays until the answer to a command has come, whatever is pressed", async () => {
+    let answer = (_: Response) => {};
+    fetched.mockReturnValue(new Promise((resolve) => (answer = resolve)));
+    show({ commands: ["pause"] });
+    await press("Pause");
+    const dialog = () => page().querySelector("dialog");
+    const send = (event: Event) => act(async () => void dialog()!.dispatchEvent(event));
+    await act(async () => {
+      page()
+        .querySelector("form")
+        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+    });
+    await send(new Event("cancel", { cancelable: true }));
+    await press("Cancel");
+    expect(dialog()).not.toBeNull();
+    await act(async () => {
+      answer(new Response(JSON.stringify({ message: "the step is finished" })));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    expect(dialog()?.textContent).toContain("the step is finished");
+    await send(new Event("cancel", { cancelable: true }));
+    expect(dialog()).toBeNull();
+  });
+
+  it("does not claim to know what became of a command that nobody answered", async () => {
+    fetched.mockRejectedValue(new TypeError("failed"));
+    show({ commands: ["pause"] });
+    await press("Pause");
+    await act(async () => {
+      page()
+        .querySelector("form")
+        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    expect(page().querySelector('dialog [role="alert"]')?.textContent).toMatch(
+      /does not answer\. The rig’s state will show/,
+    );
   });
 
   it("does not abort before the word is typed", async () => {

@@ -14,6 +14,8 @@ const alarm = {
   cause: "the door is open",
   since: "2024-05-01T10:00:00Z",
   state: "grinding",
+  kind: "door",
+  advice: "Close the door, then acknowledge.",
 } as const;
 
 describe("durationWords", () => {
@@ -62,7 +64,8 @@ describe("the state in words", () => {
   });
 
   it("does not call the start an accident", () => {
-    const started = aStatus({ state: "faulted", alarm: { ...alarm, state: "faulted" } });
+    const latch = { ...alarm, state: "faulted", kind: "start_latch" } as const;
+    const started = aStatus({ state: "faulted", alarm: latch });
     const stopped = aStatus({ state: "faulted", alarm });
     expect(stateSentence(started)).toContain("just been switched on");
     expect(stateSentence(stopped)).toContain("has stopped");
@@ -76,6 +79,8 @@ describe("the tab's title", () => {
     expect(tabTitle(status, null, "lost")).toBe("Connection lost – knee – Biotomy");
     const alarmed = { ...status, state: "faulted", alarm } as Status;
     expect(tabTitle(alarmed, null, "lost")).toBe("⚠ ALARM – knee – Biotomy");
+    expect(tabTitle(alarmed, null, "resting")).toBe("⚠ ALARM – knee – Biotomy");
+    expect(tabTitle(status, null, "resting")).toBe("knee – Biotomy");
     expect(tabTitle(null, null, "connecting")).toBe("Biotomy");
   });
 });
@@ -86,7 +91,7 @@ describe("alarmKey", () => {
     expect(alarmKey(aStatus({ alarm }))).not.toBe(
       alarmKey(aStatus({ alarm: { ...alarm, since: "later" } })),
     );
-    expect(alarmKey(aStatus({ alarm: { ...alarm, state: "faulted" } }))).toBe("");
+    expect(alarmKey(aStatus({ alarm: { ...alarm, kind: "start_latch" } }))).toBe("");
     expect(alarmKey(aStatus({}))).toBe("");
     expect(alarmKey(null)).toBe("");
   });

@@ -1,0 +1,102 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+
+import { SeenTab, type TabChannel } from "../../src/api/seen_tab";
+
+/** A browser in which each tab hears what the others say. */
+class Browser {
+  private readonly channels: TabChannel[] = [];
+
+  tab(random = 0.5): SeenTab {
+    const channel: TabChannel = {
+      onmessage: null,
+      postMessage: (data) => {
+        for (const other of this.channels) if (other !== channel) other.onmessage?.({ data });
+      },
+    };
+    this.channels.push(channel);
+    return new SeenTab(channel, () => random);
+  }
+}
+
+describe("of the tabs of a browser", () => {
+  let browser: Browser;
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    browser = new Browser();
+  });
+  afterEach(() => vi.useRealTimers());
+
+  /** As the browser opens a tab before another: that one is hidden first. */
+  const openAfter = (before: SeenTab, random?: number) => {
+    before.show(false);
+    const tab = browser.tab(random);
+    tab.show(true);
+    return tab;
+  };
+  const hearing = (...tabs: SeenTab[]) => tabs.map(({ hears }) => hears.value);
+
+  it("the one that is seen hears, the others give their streams back", () => {
+    const first = browser.tab();
+    first.show(true);
+    const second = openAfter(first);
+    const third = openAfter(second);
+    expect(hearing(first, second, third)).toEqual([false, false, true]);
+    third.show(false);
+    first.show(true);
+    expect(hearing(first, second, third)).toEqual([true, false, false]);
+  });
+
+  it("one that was opened unseen waits until it is seen", () => {
+    const first = browser.tab();
+    first.show(true);
+    const behind = browser.tab();
+    behind.show(false);
+    expect(hearing(first, behind)).toEqual([true, false]);
+  });
+
+  it("the one that was seen last goes on to hear while none is seen", () => {
+    const first = browser.tab();
+    first.show(true);
+    const second = openAfter(first);
+    second.show(false);
+    expect(hearing(first, second)).toEqual([false, true]);
+  });
+
+  it("another, and only one, takes its place when it is closed", () => {
+    const first = browser.tab(0.9);
+    first.show(true);
+    const second = openAfter(first, 0.1);
+    const third = openAfter(second);
+    third.show(false);
+    third.leave();
+    expect(hearing(first, second, third)).toEqual([false, false, false]);
+    vi.advanceTimersByTime(1000);
+    expect(hearing(first, second, third)).toEqual([false, true, false]);
+  });
+
+  it("none takes the place of one that was not the last", () => {
+    const first = browser.tab();
+    first.show(true);
+    const second = openAfter(first);
+    first.leave();
+    vi.advanceTimersByTime(1000);
+    expect(hearing(first, second)).toEqual([false, true]);
+  });
+
+  it("two that are seen side by side both hear", () => {
+    const [left, right] = [browser.tab(), browser.tab()];
+    left.show(true);
+    right.show(true);
+    expect(hearing(left, right)).toEqual([true, true]);
+    left.show(false);
+    expect(hearing(left, right)).toEqual([false, true]);
+  });
+
+  it("each hears where they can't speak to each other", () => {
+    const tab = new SeenTab(null);
+    tab.show(false);
+    tab.leave();
+    expect(tab.hears.value).toBe(true);
+  });
+});

@@ -1,0 +1,45 @@
+import { beforeEach, describe, expect, it } from "vitest";
+
+import type { Sample } from "../../src/api/types";
+import { ExplorerState } from "../../src/explorer/explorer_state";
+import { defaultExport, orderOf } from "../../src/explorer/export_order";
+import { defaultSeries } from "../../src/explorer/series_choice";
+
+describe("what is ordered", () => {
+  let state: ExplorerState;
+  beforeEach(() => {
+    state = new ExplorerState();
+    state.learn({
+      size: [1000, 1000, 80],
+      spacing_um: [10, 10, 20],
+      layers_present: 80,
+      generation: 1,
+    } as unknown as Sample);
+    state.choose({ interpolation: "cubic" });
+  });
+
+  it("is the section at full resolution, unless a pixel was typed", () => {
+    expect(orderOf(state, defaultSeries, defaultExport)).toEqual({
+      kind: "section",
+      format: "png",
+      parameters: { points: "0,0,0 9990,0,0 9990,9990,1580", interpolation: "cubic" },
+      movie: false,
+      frames: true,
+    });
+    const coarse = orderOf(state, defaultSeries, { ...defaultExport, pixel: 25 });
+    expect(coarse?.parameters.pixel).toBe("25");
+  });
+
+  it("is a series drawn as the section is, from its plane on", () => {
+    const order = orderOf(state, defaultSeries, { ...defaultExport, kind: "series", rate: 10 });
+    expect(order?.parameters).toEqual({ interpolation: "cubic" });
+    expect(order?.series).toMatchObject({ kind: "rotate", axis: "x", step: "3" });
+    expect(order).toMatchObject({ movie: true, frames: true, rate: 10 });
+  });
+
+  it("is nothing where there is nothing to write", () => {
+    const neither = { ...defaultExport, kind: "series", movie: false, frames: false } as const;
+    expect(orderOf(state, defaultSeries, neither)).toBeNull();
+    expect(orderOf(new ExplorerState(), defaultSeries, defaultExport)).toBeNull();
+  });
+});
