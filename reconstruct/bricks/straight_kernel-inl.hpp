@@ -69,7 +69,7 @@ template <typename Level>
 HWY_INLINE void mix_straight(const StraightRun& run, const StraightParts<Level>& parts,
                              Level* rgb) {
   using Levels = StraightLevels<Level>;
-  constexpr std::size_t kLevels = TexelBlocks::kSide * TexelBlocks::kColours;
+  constexpr std::size_t kLevels = std::size_t{TexelBlocks::kSide} * TexelBlocks::kColours;
   constexpr std::size_t kRoom = (kLevels + Levels::kLanes - 1) / Levels::kLanes * Levels::kLanes;
   constexpr std::size_t kTexel = TexelBlocks::kColours * sizeof(Level);
   constexpr std::size_t kBlock = TexelBlocks::kBlockLevels * sizeof(Level);

@@ -45,7 +45,9 @@ class PartedPairs {
 
   /// Of the upper pairs of a row's parted pixel.
   std::size_t place(unsigned number) const {
-    return std::size_t{number / in_a_band_} * 2 * down_ + number % in_a_band_ * 2 * kPair;
+    const std::size_t band = number / in_a_band_;
+    const std::size_t within = number % in_a_band_;
+    return 2 * (band * down_ + within * kPair);
   }
   /// Room for so many pixels' pairs, and for a vector that begins with the last of them.
   std::size_t bytes(unsigned count) const {
