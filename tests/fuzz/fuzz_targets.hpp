@@ -33,6 +33,12 @@ bool fuzz_http_request(FuzzInput input);
 /// The parameters of /api/v1/section, as a client writes them behind the question mark.
 bool fuzz_section_query(FuzzInput input);
 
+/// Likewise of /api/v1/series.
+bool fuzz_series_query(FuzzInput input);
+
+/// The body of POST /api/v1/exports.
+bool fuzz_export_order(FuzzInput input);
+
 struct FuzzTarget {
   const char* name;  ///< of the folders below corpus/ and regression/
   bool (*run)(FuzzInput);
@@ -48,6 +54,8 @@ inline constexpr std::array kFuzzTargets{
     FuzzTarget{"parameter_text", fuzz_parameter_text},
     FuzzTarget{"http_request", fuzz_http_request},
     FuzzTarget{"section_query", fuzz_section_query},
+    FuzzTarget{"series_query", fuzz_series_query},
+    FuzzTarget{"export_order", fuzz_export_order},
 };
 
 }  // namespace biotomy::tests

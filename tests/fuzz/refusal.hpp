@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "acquisition/viewer/refusal.hpp"
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::tests {
@@ -31,6 +32,8 @@ bool accepts(const std::string& name, Reader&& reader) {
   } catch (const reconstruct::SampleError& error) {
     require_clear(error.what(), name);
   } catch (const reconstruct::InvalidRequest& error) {
+    require_clear(error.what(), name);
+  } catch (const acquisition::Refusal& error) {
     require_clear(error.what(), name);
   }
   return false;
