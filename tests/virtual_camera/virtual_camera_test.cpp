@@ -51,7 +51,7 @@ class VirtualCameraTest : public testing::Test {
     ::setenv("MALLOC_PERTURB_", std::to_string(kFill).c_str(), 1);
     missing_ = take_own_usr_share();
     if (missing_) return;
-    const VirtualCamera camera({cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(128))});
+    const VirtualCamera camera(std::vector{cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(128))});
     if (bridge::list_libcamera_cameras().empty()) {
       missing_ = "this libcamera was built without the virtual pipeline";
     }
@@ -69,7 +69,7 @@ class VirtualCameraTest : public testing::Test {
 std::optional<std::string> VirtualCameraTest::missing_;
 
 TEST_F(VirtualCameraTest, IsListedWithItsModelAndWhatItOffers) {
-  const VirtualCamera shown({cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(128))});
+  const VirtualCamera shown(std::vector{cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(128))});
   const auto cameras = bridge::list_libcamera_cameras();
   ASSERT_EQ(cameras.size(), 1U);
   EXPECT_EQ(cameras.front().id, "Virtual0");
@@ -104,7 +104,7 @@ TEST_F(VirtualCameraTest, GivesTheVeryImages) {
 }
 
 TEST_F(VirtualCameraTest, GivesAViewfinderBesideTheStillWhenAsked) {
-  const VirtualCamera shown({cv::Mat(48, 64, CV_8UC3, cv::Scalar(200, 100, 50))});
+  const VirtualCamera shown(std::vector{cv::Mat(48, 64, CV_8UC3, cv::Scalar(200, 100, 50))});
   {
     bridge::LibcameraCamera plain(bridge::LibcameraSettings{});
     plain.apply(VirtualCamera::settings());
