@@ -29,7 +29,7 @@ constexpr int kTileColumns = kMostPixels;
 constexpr int kTileColumnsOf16Bits =
     32;  // so that what the steps' rounding adds up stays below a level
 constexpr int kTileRows = 32;
-constexpr int kStripRows = 64;
+constexpr int kStripRows = 32;
 constexpr int kLeastStripRows = 8;
 constexpr double kBoxBricks = 4096;  // a tile's table stays in the nearest cache levels
 
