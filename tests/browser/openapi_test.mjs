@@ -292,19 +292,22 @@ describe("each operation answers as documented", () => {
   }
 });
 
-test("each event is as documented", async () => {
+test("each event is as documented", { timeout: 60_000 }, async () => {
   const schemasOfEvents =
     contract.paths["/api/v1/events"].get.responses["200"].content["text/event-stream"]["x-events"];
   const seen = new Set();
   const wanted = ["status", "sample", "attempt", "export"];
   const stream = readEvents(rig, { token: rig.token, lastId: 1 });
   try {
-    await rig.ask("/api/v1/exports", {
-      method: "POST",
-      token: rig.token,
-      body: JSON.stringify(pngOfAll),
-    });
     for await (const { name, data, id } of stream) {
+      // Not before: an export that is done when the stream begins is told no more.
+      if (seen.size === 0) {
+        await rig.ask("/api/v1/exports", {
+          method: "POST",
+          token: rig.token,
+          body: JSON.stringify(pngOfAll),
+        });
+      }
       assert.ok(schemasOfEvents[name], `an event ${name} is not documented`);
       assert.ok(!data.includes("\n"), `${name} has more than one line`);
       checkNamed(schemasOfEvents[name].$ref.split("/").at(-1), JSON.parse(data), `event ${name}`);
