@@ -144,6 +144,7 @@ class HttpServer::Listening : public ConnectionHost {
                              std::chrono::milliseconds(1000) / limits_.pictures_per_second),
         acceptor_(listening_at(context_, host, port)),
         accept_timer_(context_),
+        commands_("http-commands", limits_.commands.threads, limits_.commands.most_waiting, 0),
         quick_("http-quick", limits_.quick.threads, limits_.quick.most_waiting, kNice),
         files_("http-files", limits_.files.threads, limits_.files.most_waiting, kNice),
         pictures_("http-pictures", limits_.pictures.threads, limits_.pictures.most_waiting,
@@ -229,6 +230,8 @@ class HttpServer::Listening : public ConnectionHost {
 
   WorkLane& lane(Lane kind) {
     switch (kind) {
+      case Lane::commands:
+        return commands_;
       case Lane::files:
         return files_;
       case Lane::pictures:
@@ -296,6 +299,7 @@ class HttpServer::Listening : public ConnectionHost {
   std::map<std::string, std::size_t> of_address_;  ///< connections of each
   std::thread thread_;
   // Last: their threads post to the context, and end first.
+  WorkLane commands_;
   WorkLane quick_;
   WorkLane files_;
   WorkLane pictures_;

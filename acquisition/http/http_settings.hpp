@@ -21,6 +21,7 @@ struct HttpLimits {
   std::chrono::milliseconds idle_time{30000};    ///< of a connection between two requests
   std::chrono::milliseconds write_stall{10000};  ///< a client that takes nothing for so long
   int pictures_per_second = 50;                  ///< of an address; three times as many at once
+  LaneSize commands{.threads = 2};
   LaneSize quick{.threads = 4};
   LaneSize files{.threads = 2};
   LaneSize pictures{.threads = 2};

@@ -54,9 +54,10 @@ struct ApiResponse {
 /// What a request asks of the computer: each lane has threads of its own, so that none waits for
 /// another kind of work.
 enum class Lane {
-  quick,    ///< looks at memory and a few rows of the journal
-  files,    ///< reads parts of files
-  pictures  ///< decodes, samples and encodes: bounded, and of lower priority than the run
+  commands,  ///< of an operator: no look is before them, and they have the run's own priority
+  quick,     ///< looks at memory and a few rows of the journal
+  files,     ///< reads parts of files
+  pictures   ///< decodes, samples and encodes: bounded, and of lower priority than the run
 };
 
 /// {"error": {"code": …, "message": …}}

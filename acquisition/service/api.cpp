@@ -63,6 +63,7 @@ Api::Api(ApiParts parts, std::chrono::milliseconds reply_time_out)
     : parts_(std::move(parts)), reply_time_out_(reply_time_out) {}
 
 Lane Api::lane(const ApiRequest& request) const {
+  if (request.path.starts_with(kControl)) return Lane::commands;
   return parts_.sample.answers(request) ? SampleApi::lane(request) : Lane::quick;
 }
 

@@ -48,7 +48,8 @@ HWY_INLINE LevelVector levels_at(const std::byte* const* pair, std::ptrdiff_t of
   return hn::ShiftLeft<kLevelShift>(hn::PromoteTo(d, bytes));
 }
 
-HWY_INLINE LevelVector mixed(LevelVector a, LevelVector b, LevelVector part) {
+template <typename Vector>
+HWY_INLINE Vector mixed(Vector a, Vector b, Vector part) {
   return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), part));
 }
 

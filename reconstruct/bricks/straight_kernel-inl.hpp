@@ -38,9 +38,6 @@ struct StraightLevels<std::uint8_t> {
     return hn::ShiftLeft<kLevelShift>(
         hn::PromoteTo(D(), hn::LoadU(D8(), reinterpret_cast<const std::uint8_t*>(levels))));
   }
-  HWY_INLINE static V mix(V a, V b, V part) {
-    return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), part));
-  }
   HWY_INLINE static void store(V levels, std::uint8_t* out) {
     const auto half = hn::Set(D(), 1 << (kLevelShift - 1));
     hn::StoreU(hn::DemoteTo(D8(), hn::ShiftRight<kLevelShift>(hn::Add(levels, half))), D8(), out);
@@ -52,9 +49,8 @@ struct StraightLevels<std::uint16_t> {
   static constexpr std::size_t kLanes = 4;
   using V = TexelVector;
 
-  HWY_INLINE static V part(float part) { return hn::Set(FourFloats(), part); }
+  HWY_INLINE static float part(float part) { return part; }
   HWY_INLINE static V load(const std::byte* levels) { return texel_at(levels); }
-  HWY_INLINE static V mix(V a, V b, V part) { return hn::MulAdd(hn::Sub(b, a), part, a); }
   HWY_INLINE static void store(V levels, std::uint16_t* out) {
     const hn::FixedTag<std::uint16_t, kLanes> d16;
     const hn::FixedTag<std::int32_t, kLanes> d32;
@@ -79,9 +75,9 @@ HWY_INLINE void mix_straight(const StraightRun& run, const StraightParts<Level>&
     for (std::size_t i = 0; i < kLevels; i += Levels::kLanes) {
       const auto at = [&](const std::byte* row)
                           HWY_ATTR { return Levels::load(row + place + i * sizeof(Level)); };
-      const auto here = Levels::mix(at(run.upper[0]), at(run.lower[0]), z);
-      const auto next = Levels::mix(at(run.upper[1]), at(run.lower[1]), z);
-      Levels::store(Levels::mix(here, next, y), out + i);
+      const auto here = mixed(at(run.upper[0]), at(run.lower[0]), z);
+      const auto next = mixed(at(run.upper[1]), at(run.lower[1]), z);
+      Levels::store(mixed(here, next, y), out + i);
     }
   };
   std::size_t texel = run.first;

@@ -49,9 +49,10 @@ class PartedPairs {
     const std::size_t within = number % in_a_band_;
     return 2 * (band * down_ + within * kPair);
   }
-  /// Room for so many pixels' pairs, and for a vector that begins with the last of them.
+
+  /// Room for the pairs of one pixel or more, and for a vector that begins with the last of them.
   std::size_t bytes(unsigned count) const {
-    return count == 0 ? 0 : place(count - 1) + down_ + kPair + kVectorBytes;
+    return place(count - 1) + down_ + kPair + kVectorBytes;
   }
 
  private:
@@ -154,19 +155,15 @@ void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
       path.axes[2].step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
   pairs.down = path.axes[2].next * std::ptrdiff_t{path.layer_bytes};
   reconstruct::place_runs(path, runs, bricks_.data(), pairs);
-  unsigned parted = 0;
-  for (const BrickRun& run : runs) {
-    parted += run.parted ? static_cast<unsigned>(run.last - run.first) : 0;
-  }
+  const auto count = static_cast<std::size_t>(runs.back().last);
   places.parted.clear();
-  places.parted_pairs.resize(
-      std::max(places.parted_pairs.size(), PartedPairs<Level>(pairs).bytes(parted)));
+  places.parted_pairs.resize(std::max(
+      places.parted_pairs.size(), PartedPairs<Level>(pairs).bytes(static_cast<unsigned>(count))));
   for (const BrickRun& run : runs) {
     if (run.parted) {
       place_parted(plan, path, run, places);
     }
   }
-  const auto count = static_cast<std::size_t>(runs.back().last);
   prefetch(pairs, count);
   // The kernels' vectors reach behind the last pixel: there stand places of texels.
   for (auto* texels : {&pairs.upper, &pairs.lower}) {
@@ -218,7 +215,9 @@ void TileSampler<Level>::place_parted(const TilePlan& plan, const RowPath& path,
     const auto i = static_cast<std::size_t>(pixel);
     for (std::size_t row = 0; row < 2; ++row) {
       pairs.upper[row][i] = upper + row * gathered.kPair;
-      pairs.lower[row][i] = pairs.upper[row][i] + gathered.down();
+      if (pairs.crosses) {
+        pairs.lower[row][i] = pairs.upper[row][i] + gathered.down();
+      }
     }
     pairs.x[i] = x.part;
     pairs.y[i] = y.part;

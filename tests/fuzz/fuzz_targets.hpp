@@ -33,7 +33,7 @@ bool fuzz_http_request(FuzzInput input);
 /// The parameters of /api/v1/section, as a client writes them behind the question mark.
 bool fuzz_section_query(FuzzInput input);
 
-/// Likewise of /api/v1/series.
+/// Likewise of /api/v1/series/frames.
 bool fuzz_series_query(FuzzInput input);
 
 /// The body of POST /api/v1/exports.

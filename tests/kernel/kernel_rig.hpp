@@ -33,6 +33,7 @@ class KernelRig {
 
   const std::string& url() const { return url_; }
   Outcome rig(const std::string& command);
+
   /// In this process: to begin another takes as long here as some steps of the job.
   nlohmann::json status();
 

@@ -30,7 +30,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Answers as it is told; whatever begins with /picture is a picture.
+/// Answers as it is told; whatever begins with /picture is a picture, with /command a command.
 struct FakeApplication : HttpApplication {
   std::function<ApiResponse(const ApiRequest&)> answers = [](const ApiRequest& request) {
     return ApiResponse{.content_type = "text/plain",
@@ -41,10 +41,13 @@ struct FakeApplication : HttpApplication {
 
   Lane lane(const ApiRequest& request) const override {
     ++asked;
+    if (request.path.starts_with("/command")) return Lane::commands;
     return request.path.starts_with("/picture") ? Lane::pictures : Lane::quick;
   }
   ApiResponse answer(const ApiRequest& request) const override { return answers(request); }
 };
+
+constexpr std::chrono::seconds kPatience{30};
 
 /// Work that goes on until it is let go, and counts who is at it.
 class Gate {
@@ -53,11 +56,11 @@ class Gate {
     std::unique_lock lock(mutex_);
     ++inside_;
     changed_.notify_all();
-    changed_.wait(lock, [this] { return open_; });
+    changed_.wait_for(lock, kPatience, [this] { return open_; });
   }
   void wait_for(int inside) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return inside_ >= inside; });
+    EXPECT_TRUE(changed_.wait_for(lock, kPatience, [&] { return inside_ >= inside; }));
   }
   void open() {
     const std::scoped_lock lock(mutex_);
@@ -73,7 +76,7 @@ class Gate {
 };
 
 void wait_until(const std::function<bool()>& done) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (!done()) {
     ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "it did not come to that";
     std::this_thread::sleep_for(milliseconds(1));
@@ -157,12 +160,13 @@ TEST_F(HttpServerTest, TellsAClientThatWaitsToSendItsBody) {
   EXPECT_THAT(client.read_until("body"), StartsWith("HTTP/1.1 200 "));
 }
 
-TEST_F(HttpServerTest, AnswersWithLessPriorityThanTheRunAndDrawsWithLessStill) {
+TEST_F(HttpServerTest, GivesLooksLessPriorityThanTheRunAndPicturesLessStillButNotCommands) {
   const auto priority = [] { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); };
   application.answers = [&](const ApiRequest&) {
     return ApiResponse{.body = std::to_string(priority())};
   };
   httplib::Client client("127.0.0.1", start());
+  EXPECT_EQ(client.Post("/command")->body, std::to_string(priority()));
   EXPECT_EQ(client.Get("/quick")->body, std::to_string(std::min(priority() + 5, 19)));
   EXPECT_EQ(client.Get("/picture")->body, std::to_string(std::min(priority() + 10, 19)));
 }
@@ -211,6 +215,27 @@ TEST_F(HttpServerTest, RefusesAtOnceWhatALaneHasNoRoomFor) {
   EXPECT_EQ(other.Get("/quick")->status, 200);
   gate.open();
   EXPECT_THAT(waiting.read_until("\r\n\r\n"), StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(HttpServerTest, TakesCommandsWhenThereIsNoRoomForLooks) {
+  Gate gate;
+  const EndsFirst ends_first(server);
+  application.answers = [&](const ApiRequest& request) {
+    if (request.path == "/look") gate.pass();
+    return ApiResponse{};
+  };
+  settings.limits.quick = {.threads = 1, .most_waiting = 1};
+  const int port = start();
+  RawClient worked_on(port);
+  worked_on.get("/look");
+  gate.wait_for(1);
+  RawClient waiting(port);
+  waiting.get("/look");
+  wait_until([&] { return application.asked == 2; });
+  httplib::Client operators(std::string("127.0.0.1"), port);
+  EXPECT_EQ(operators.Get("/look")->status, 503);
+  EXPECT_EQ(operators.Post("/command")->status, 200);
+  gate.open();
 }
 
 TEST_F(HttpServerTest, TellsWorkThatItsClientHasLeft) {

@@ -104,6 +104,11 @@ TEST_F(ApiTest, ShowsTheStatus) {
   EXPECT_EQ(document.at("version"), BIOTOMY_VERSION);
 }
 
+TEST_F(ApiTest, LetsNoLookStandBeforeACommand) {
+  EXPECT_EQ(api->lane({.method = "POST", .path = "/api/v1/control/abort"}), Lane::commands);
+  EXPECT_EQ(api->lane({.path = "/api/v1/status"}), Lane::quick);
+}
+
 TEST_F(ApiTest, TellsWhatToDoAndWhatTheJobWouldObey) {
   JobStatus status;
   status.alarm =

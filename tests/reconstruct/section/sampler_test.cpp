@@ -205,7 +205,7 @@ TEST(Sampler, AgreesWithTheDefinitionInLongRunsOf16Bits) {
   }
 }
 
-// Whole rows of pixels whose texels lie in two chunks, along each axis, from voxel to voxel and
+// Whole rows of pixels whose texels lie in two chunks, along each axis; from voxel to voxel, and so
 // not.
 TEST(Sampler, AgreesWithTheDefinitionBetweenChunks) {
   struct Case {
