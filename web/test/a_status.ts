@@ -1,4 +1,4 @@
-import type { Status } from "../src/api/types";
+import type { Alarm, Status } from "../src/api/types";
 
 /** The status of a rig at rest, with what a test changes of it. */
 export function aStatus(changes: Partial<Status>): Status {
@@ -30,3 +30,11 @@ export function aStatus(changes: Partial<Status>): Status {
     ...changes,
   };
 }
+
+export const anAlarm: Alarm = {
+  cause: "the door is open",
+  since: "2024-05-01T10:00:00Z",
+  state: "grinding",
+  kind: "door",
+  advice: "Close the door, then acknowledge.",
+};

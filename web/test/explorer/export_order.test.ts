@@ -1,20 +1,15 @@
 import { beforeEach, describe, expect, it } from "vitest";
 
-import type { Sample } from "../../src/api/types";
 import { ExplorerState } from "../../src/explorer/explorer_state";
 import { defaultExport, orderOf } from "../../src/explorer/export_order";
 import { defaultSeries } from "../../src/explorer/series_choice";
+import { aSample } from "./a_sample";
 
 describe("what is ordered", () => {
   let state: ExplorerState;
   beforeEach(() => {
     state = new ExplorerState();
-    state.learn({
-      size: [1000, 1000, 80],
-      spacing_um: [10, 10, 20],
-      layers_present: 80,
-      generation: 1,
-    } as unknown as Sample);
+    state.learn(aSample);
     state.choose({ interpolation: "cubic" });
   });
 

@@ -4,7 +4,6 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
-import type { Sample } from "../../src/api/types";
 import { ExplorerState } from "../../src/explorer/explorer_state";
 import { inPlane } from "../../src/explorer/geometry/plane_rectangle";
 import type { Vector3 } from "../../src/explorer/geometry/vector3";
@@ -14,6 +13,7 @@ import { SectionTools } from "../../src/explorer/section_tools";
 import { pixelAt } from "../../src/explorer/section_window";
 import { useCuboidPointer } from "../../src/explorer/use_cuboid_pointer";
 import { useSectionPointer } from "../../src/explorer/use_section_pointer";
+import { aSample } from "./a_sample";
 
 const square: Place[] = [
   [10, 10],
@@ -60,12 +60,7 @@ describe("a click on an edge of the section", () => {
     state = new ExplorerState();
     tools = new SectionTools();
     state.panel.value = { width: 1000, height: 700, ratio: 2 };
-    state.learn({
-      size: [1000, 1000, 80],
-      spacing_um: [10, 10, 20],
-      layers_present: 80,
-      generation: 1,
-    } as unknown as Sample);
+    state.learn(aSample);
     page.innerHTML = '<div id="section"></div><canvas id="block"></canvas><div id="hooks"></div>';
     for (const id of ["section", "block"]) {
       page.querySelector<HTMLElement>(`#${id}`)!.setPointerCapture = () => undefined;

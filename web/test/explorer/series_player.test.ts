@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { ApiError, getJson } from "../../src/api/client";
-import type { Sample } from "../../src/api/types";
 import { ExplorerState } from "../../src/explorer/explorer_state";
 import { fetchPicture } from "../../src/explorer/section_fetch";
 import type { SectionRecord } from "../../src/explorer/section_record";
 import { SeriesPlayer } from "../../src/explorer/series_player";
+import { aSample } from "./a_sample";
 
 vi.mock("../../src/api/client", async (original) => ({
   ...(await original<object>()),
@@ -41,12 +41,7 @@ beforeEach(() => {
   });
   state = new ExplorerState();
   state.panel.value = { width: 1000, height: 700, ratio: 1 };
-  state.learn({
-    size: [1000, 1000, 80],
-    spacing_um: [10, 10, 20],
-    layers_present: 80,
-    generation: 1,
-  } as unknown as Sample);
+  state.learn(aSample);
   player = new SeriesPlayer(state);
 });
 afterEach(() => {

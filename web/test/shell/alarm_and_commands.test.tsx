@@ -11,7 +11,7 @@ import { AlarmBar } from "../../src/shell/AlarmBar";
 import { CommandDialog } from "../../src/shell/CommandDialog";
 import { commandAsked } from "../../src/shell/commands";
 import { ConnectionBanner } from "../../src/shell/ConnectionBanner";
-import { aStatus } from "../a_status";
+import { aStatus, anAlarm as alarm } from "../a_status";
 
 const page = () => document.body;
 const buttons = () => [...page().querySelectorAll("button")].map((button) => button.textContent);
@@ -46,13 +46,15 @@ function show(changes: Partial<Status>, lost = false): void {
   });
 }
 
-const alarm = {
-  cause: "the door is open",
-  since: "2024-05-01T10:00:00Z",
-  state: "grinding",
-  kind: "door",
-  advice: "Close the door, then acknowledge.",
-} as const;
+/** As its button does, and waits for what comes of it at once. */
+async function sendForm(): Promise<void> {
+  await act(async () => {
+    page()
+      .querySelector("form")
+      ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+    await new Promise((resolve) => setTimeout(resolve));
+  });
+}
 
 describe("alarm and commands", () => {
   const fetched = vi.fn<typeof fetch>();
@@ -99,11 +101,7 @@ describe("alarm and commands", () => {
     show({ commands: ["pause"] });
     await press("Pause");
     type("reason", " lunch ");
-    const form = page().querySelector("form");
-    await act(async () => {
-      form?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
-      await new Promise((resolve) => setTimeout(resolve));
-    });
+    await sendForm();
     const [path, options] = fetched.mock.calls[0];
     expect(path).toBe("/api/v1/control/pause");
     expect(options?.method).toBe("POST");
@@ -118,12 +116,7 @@ describe("alarm and commands", () => {
     fetched.mockResolvedValue(new Response(JSON.stringify(error), { status: 409 }));
     show({ commands: ["pause"] });
     await press("Pause");
-    await act(async () => {
-      page()
-        .querySelector("form")
-        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
-      await new Promise((resolve) => setTimeout(resolve));
-    });
+    await sendForm();
     expect(page().querySelector('dialog [role="alert"]')?.textContent).toBe("the job is done");
   });
 
@@ -134,11 +127,7 @@ describe("alarm and commands", () => {
     await press("Pause");
     const dialog = () => page().querySelector("dialog");
     const send = (event: Event) => act(async () => void dialog()!.dispatchEvent(event));
-    await act(async () => {
-      page()
-        .querySelector("form")
-        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
-    });
+    await sendForm();
     await send(new Event("cancel", { cancelable: true }));
     await press("Cancel");
     expect(dialog()).not.toBeNull();
@@ -155,12 +144,7 @@ describe("alarm and commands", () => {
     fetched.mockRejectedValue(new TypeError("failed"));
     show({ commands: ["pause"] });
     await press("Pause");
-    await act(async () => {
-      page()
-        .querySelector("form")
-        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
-      await new Promise((resolve) => setTimeout(resolve));
-    });
+    await sendForm();
     expect(page().querySelector('dialog [role="alert"]')?.textContent).toMatch(
       /does not answer\. The rig’s state will show/,
     );
@@ -173,11 +157,7 @@ describe("alarm and commands", () => {
     expect(submit()?.disabled).toBe(true);
     type("confirmation", "abor");
     expect(submit()?.disabled).toBe(true);
-    await act(() => {
-      page()
-        .querySelector("form")
-        ?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
-    });
+    await sendForm();
     expect(fetched).not.toHaveBeenCalled();
     type("confirmation", " Abort ");
     expect(submit()?.disabled).toBe(false);

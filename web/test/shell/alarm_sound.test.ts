@@ -1,15 +1,7 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { aStatus } from "../a_status";
-
-const alarm = {
-  cause: "the door is open",
-  since: "2024-05-01T10:00:00Z",
-  state: "grinding",
-  kind: "door",
-  advice: "Close the door, then acknowledge.",
-} as const;
+import { aStatus, anAlarm as alarm } from "../a_status";
 
 describe("the sound of an alarm", () => {
   let live: typeof import("../../src/api/live");

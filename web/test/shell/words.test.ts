@@ -8,15 +8,7 @@ import { hashOf, parseHash } from "../../src/shell/route";
 import { sampleName } from "../../src/shell/sample_name";
 import { stateSentence, stateWords, wordsOf } from "../../src/shell/state_words";
 import { tabTitle } from "../../src/shell/tab_sign";
-import { aStatus } from "../a_status";
-
-const alarm = {
-  cause: "the door is open",
-  since: "2024-05-01T10:00:00Z",
-  state: "grinding",
-  kind: "door",
-  advice: "Close the door, then acknowledge.",
-} as const;
+import { aStatus, anAlarm as alarm } from "../a_status";
 
 describe("durationWords", () => {
   it.each([
