@@ -75,6 +75,8 @@ void KilledRun::await_kill(bool go_on_meanwhile) {
 }
 
 void KilledRun::note_kill() {
+  // A photograph that the daemon asked for is taken after its death, and belongs to the kill.
+  if (!rig_.daemon_runs()) rig_.await_idle_twin();
   const std::int64_t committed_then = committed();
   kills_.push_back({acquisition::utc_text(std::chrono::system_clock::now()), committed_then});
 }

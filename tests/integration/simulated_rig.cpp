@@ -3,6 +3,8 @@
 #include <csignal>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +20,18 @@ using std::chrono::seconds;
 
 constexpr double kColumnOffsetUm = 350;
 constexpr double kFocusGuessErrorUm = 25;  // the operator's guess is near, not right
+
+/// By /proc/PID/fd (proc_pid_fd(5)).
+int sockets_of(pid_t process) {
+  int sockets = 0;
+  const std::filesystem::path folder = "/proc/" + std::to_string(process) + "/fd";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::error_code closed_meanwhile;
+    const std::string file = std::filesystem::read_symlink(entry, closed_meanwhile);
+    if (file.starts_with("socket:")) ++sockets;
+  }
+  return sockets;
+}
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
@@ -41,6 +55,7 @@ SimulatedRig::SimulatedRig(const RigPlan& plan) : plan_(plan), stage_(plan.liste
   phantom_ = std::make_unique<sim::Phantom>(
       sim::read_configuration(bridge::CheckedTable::read_file(folder() / "sim.toml")).phantom);
   start_twin();
+  twin_listeners_ = sockets_of(twin_->pid());
   write_twin_configuration();  // with the address that it has found
   write_daemon_configuration();
 }
@@ -93,6 +108,16 @@ void SimulatedRig::kill_twin() {
   twin_->send(SIGKILL);
   twin_->wait(seconds(10));
   twin_.reset();
+}
+
+void SimulatedRig::await_idle_twin() const {
+  const auto deadline = std::chrono::steady_clock::now() + seconds(20);
+  while (twin_ != nullptr && sockets_of(twin_->pid()) > twin_listeners_) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw std::runtime_error("the twin still holds a connection");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 void SimulatedRig::start_daemon() {

@@ -68,6 +68,10 @@ class SimulatedRig {
   void start_twin();
   void kill_twin();
 
+  /// Waits until a twin that runs holds no connection any more: what a daemon that is gone had
+  /// asked of it is done and witnessed. Throws std::runtime_error when time is up.
+  void await_idle_twin() const;
+
   /// SIGTERM, and waits for the end.
   Outcome end_daemon(std::chrono::seconds limit = std::chrono::seconds(60));
 
@@ -103,6 +107,7 @@ class SimulatedRig {
   std::unique_ptr<ChildProcess> twin_;
   std::unique_ptr<ChildProcess> daemon_;
   std::string stage_;
+  int twin_listeners_ = 0;  ///< sockets that the twin holds while nobody is connected
   std::string url_;
 };
 
