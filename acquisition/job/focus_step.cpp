@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -38,6 +39,8 @@ FocusStep::FocusStep(const JobSettings& settings, std::unique_ptr<FocusActuator>
 void FocusStep::begin(std::int64_t layer, SearchReason reason, TimePoint now) {
   layer_ = layer;
   search_.reset();
+  expected_.reset();
+  if (memory_.knows_focus()) expected_ = memory_.plan(layer, false);
   if (reason.words == nullptr) {
     const bridge::AxisLimits limits = actuator_->limits();
     approach(std::clamp(memory_.predicted(layer), limits.minimum, limits.maximum), now);
@@ -103,6 +106,15 @@ void FocusStep::end_search(TimePoint now) {
   }
   log_warning(kComponent, search_->why_not() + "; the " + actuator_->name() + " follows the face");
   approach(focus_, now);
+}
+
+std::optional<Metric> FocusStep::change() const {
+  if (!expected_) return std::nullopt;
+  const bool was_found = search_ && search_->found();
+  const bridge::Micrometres focus = was_found ? search_->found()->position : focus_;
+  const double value = (focus - expected_->predicted).value;
+  const double limit = expected_->largest_change->value;
+  return Metric{"focus_change", value, limit, std::abs(value) <= limit};
 }
 
 void FocusStep::report() {

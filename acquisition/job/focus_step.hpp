@@ -12,6 +12,7 @@
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/step_failure.hpp"
 #include "acquisition/job/worker.hpp"
+#include "acquisition/quality/assessment.hpp"
 #include "acquisition/records/record_keeper.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 
@@ -38,6 +39,10 @@ class FocusStep {
 
   std::string waiting_for() const;
 
+  /// Once the face is in focus, "focus_change": how far that is from where it was expected, in µm,
+  /// and how far a search is believed. Nothing for a first layer, which expects nothing.
+  std::optional<Metric> change() const;
+
   const std::optional<FocusReport>& last_search() const { return last_search_; }
 
  private:
@@ -60,6 +65,7 @@ class FocusStep {
   std::optional<FocusSearch> search_;
   Phase phase_ = Phase::move_to_focus;
   bridge::Micrometres focus_{};
+  std::optional<SearchPlan> expected_;  ///< what was known of the layer's focus beforehand
   std::optional<bridge::Micrometres> stands_at_;
   std::optional<FocusReport> last_search_;
 };

@@ -1,6 +1,8 @@
 #include "acquisition/job/layer_cycle.hpp"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "acquisition/job/capture.hpp"
@@ -11,6 +13,20 @@
 namespace biotomy::acquisition {
 
 using bridge::StageAction;
+
+namespace {
+
+/// The focus's way to its place decides nothing: a face that is sharp may be anywhere.
+void note(const Metric& focus_change, Assessment& assessment) {
+  assessment.metrics.push_back(focus_change);
+  if (focus_change.passed || assessment.verdict != Verdict::accepted) return;
+  std::array<char, 100> text{};
+  std::snprintf(text.data(), text.size(), "; but the focus is %+.1f µm from where it was expected",
+                focus_change.value);
+  assessment.reason += text.data();
+}
+
+}  // namespace
 
 LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
                        const CycleStart& start)
@@ -147,6 +163,7 @@ void LayerCycle::begin_assessment() {
 std::optional<JobEvent> LayerCycle::judge() {
   AssessedFrame assessed = assessment_.get();
   in_hand_->assessment = std::move(assessed.assessment);
+  if (const auto change = focus_.change()) note(*change, in_hand_->assessment);
   remember_judgement();
   const Assessment& found = in_hand_->assessment;
   expectation_.previous_sequence = in_hand_->frame.sequence;

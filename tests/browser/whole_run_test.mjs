@@ -55,7 +55,7 @@ test("a run is started, watched and seen to end", async () => {
 test("every attempt of the run is in the charts, without loading the page anew", async () => {
   const { attempts, rejected } = await attemptsOfRig();
   assert.ok(rejected > 0, "nothing was rejected: nothing is tested");
-  for (const chart of ["sharpness_ratio", "brightness", "column_um"]) {
+  for (const chart of ["sharpness_ratio", "brightness", "focus_change", "column_um"]) {
     const figure = tab.page.locator(`[data-chart="${chart}"]`);
     await until(
       `${attempts} attempts in the chart ${chart}`,

@@ -32,12 +32,12 @@ void PrintTo(const Input& input, std::ostream* out) {
   *out << input.name;
 }
 
-constexpr int kMostDisturbances = 40;
+constexpr int kMostDisturbances = 64;
 constexpr const char* kWarmBlock = "cooler";
 
 /// Every step of the host alone lasts a tick at least: long enough to be seen and disturbed.
 RigPlan slow_plan() {
-  RigPlan plan = device_plan(20);
+  RigPlan plan = device_plan(32);
   plan.tick_ms = 40;
   plan.daemon_settings += "[safety]\ntemperature_delay_ms = 50\ntemperature_resumes = true\n";
   return plan;

@@ -44,6 +44,40 @@ TEST(FocusStep, TellsOfItsLastSearchInTheStatus) {
   EXPECT_THAT(status_json(*status, {}), HasSubstr("\"actuator\":\"column\""));
 }
 
+/// Rows of layers whose frames have a focus_change for which `condition` holds.
+std::string with_change(const std::string& condition) {
+  return "EXISTS (SELECT 1 FROM json_each(metrics) AS metric WHERE "
+         "metric.value ->> 'name' = 'focus_change' AND " +
+         condition + ")";
+}
+
+TEST(FocusStep, TellsWithEachFrameHowFarTheFocusIsFromWhereItWasExpected) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 1 AND " + with_change("1")), 0)
+      << "of the first layer nothing was expected";
+  EXPECT_EQ(bench.count_rows("attempts", with_change("metric.value ->> 'value' = 0 AND "
+                                                     "metric.value ->> 'limit' = 40 * (layer - 1) "
+                                                     "AND metric.value ->> 'passed'")),
+            4);
+}
+
+TEST(FocusStep, SaysThatASearchFoundTheFocusFarFromWhereItWasExpected) {
+  JobBench bench;
+  bench.start_job();
+  while (bench.board.look()->committed < 2) bench.tick();
+  bench.camera.column_to_face_um += 100.0;
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(
+      bench.count_rows(
+          "attempts", "layer = 3 AND verdict = 'accepted' AND reason LIKE '%the focus is -%' AND " +
+                          with_change("abs(metric.value ->> 'value' + 100) < 4 AND "
+                                      "metric.value ->> 'limit' = 80 AND "
+                                      "NOT metric.value ->> 'passed'")),
+      1);
+}
+
 TEST(FocusStep, ComesToEveryFrameFromBelow) {
   JobBench bench;
   std::vector<double> column;

@@ -41,14 +41,21 @@ export function drawOnDemand(
       ratio,
     );
   };
+  const ask = () => {
+    if (frame === 0) frame = requestAnimationFrame(draw);
+  };
   const stop = effect(() => {
     void [renderer.value, projection.value, size.value, isDark.value];
     void [state.shownPlane.value, state.shownPicture.value];
     void [state.cuboid.value, state.layersPresent.value];
-    if (frame === 0) frame = requestAnimationFrame(draw);
+    ask();
   });
+  // A graphics card that was reset, or had too little memory, gives back an empty canvas.
+  const drawn = canvasOf();
+  drawn?.addEventListener("webglcontextrestored", ask);
   return () => {
     stop();
+    drawn?.removeEventListener("webglcontextrestored", ask);
     cancelAnimationFrame(frame);
   };
 }

@@ -1,11 +1,11 @@
 import { capital } from "../shell/capital";
-import { dash, fixed, significant, withUnit } from "../ui/numbers";
+import { dash, fixed, micrometres, significant, withUnit } from "../ui/numbers";
 
 /** Metrics of a frame as a person reads them; what each of them is: docs/quality.md. */
 
 /** How a value is held against its limit. */
 export type Bound = "least" | "most" | "within" | "none" | "unknown";
-type Unit = "ratio" | "part" | "pixels";
+type Unit = "ratio" | "part" | "pixels" | "micrometres";
 
 export interface MetricWords {
   readonly title: string;
@@ -47,6 +47,7 @@ const known = new Map<string, MetricWords>(
     face_change: { title: "Change from the layer before", bound: "least", unit: "part" },
     old_part: { title: "Part still showing the layer before", bound: "most", unit: "part" },
     repeated_rows: { title: "Rows repeated from an earlier frame", bound: "most", unit: "part" },
+    focus_change: { title: "Change of the focus", bound: "within", unit: "micrometres" },
     dead_rows: { title: "Rows without a picture", bound: "most", unit: "part" },
   }),
 );
@@ -70,6 +71,8 @@ export function valueText(value: number | null, words: MetricWords): string {
       return withUnit(share(value), "%");
     case "pixels":
       return withUnit(fixed(value, 2), "px");
+    case "micrometres":
+      return micrometres(value, 1);
     case "ratio":
       return fixed(value, 3);
   }

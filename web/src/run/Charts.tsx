@@ -29,6 +29,14 @@ export function Charts() {
         tick={changeTick}
       />
       <LayerChart
+        name="focus_change"
+        title="Focus change"
+        about="from where it was expected, in µm"
+        bound={metricWords("focus_change").bound}
+        text={place}
+        tick={plainTick}
+      />
+      <LayerChart
         name="column_um"
         title="Focus position"
         about="of the column, in µm"

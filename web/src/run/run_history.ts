@@ -8,7 +8,7 @@ import { AttemptHistory } from "./attempt_history";
 
 /** The job's attempts for the Run view: fetched once, then grown by what the stream tells. */
 
-export const chartMetrics = ["sharpness_ratio", "brightness"] as const;
+export const chartMetrics = ["sharpness_ratio", "brightness", "focus_change"] as const;
 const rejectedShown = 20;
 const quickest_ms = 250; // between two looks of the charts at what is new
 const refused_ms = 10_000; // until a server that would not answer this is asked again
