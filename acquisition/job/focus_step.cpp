@@ -112,8 +112,9 @@ std::optional<Metric> FocusStep::change() const {
   if (!expected_) return std::nullopt;
   const bool was_found = search_ && search_->found();
   const bridge::Micrometres focus = was_found ? search_->found()->position : focus_;
-  const double value = (focus - expected_->predicted).value;
-  const double limit = expected_->largest_change->value;
+  const double limit = settings_.focus.largest_change.value;  // a layer
+  const double layers = expected_->largest_change->value / limit;
+  const double value = (focus - expected_->predicted).value / layers;
   return Metric{"focus_change", value, limit, std::abs(value) <= limit};
 }
 

@@ -39,8 +39,9 @@ class FocusStep {
 
   std::string waiting_for() const;
 
-  /// Once the face is in focus, "focus_change": how far that is from where it was expected, in µm,
-  /// and how far a search is believed. Nothing for a first layer, which expects nothing.
+  /// Once the face is in focus, "focus_change": how far that is from where it was expected, in µm
+  /// for each layer since the last search, and how far a search is believed. Nothing for a first
+  /// layer, which expects nothing.
   std::optional<Metric> change() const;
 
   const std::optional<FocusReport>& last_search() const { return last_search_; }

@@ -21,7 +21,7 @@ void note(const Metric& focus_change, Assessment& assessment) {
   assessment.metrics.push_back(focus_change);
   if (focus_change.passed || assessment.verdict != Verdict::accepted) return;
   std::array<char, 100> text{};
-  std::snprintf(text.data(), text.size(), "; but the focus is %+.1f µm from where it was expected",
+  std::snprintf(text.data(), text.size(), "; but the focus left its way by %+.1f µm a layer",
                 focus_change.value);
   assessment.reason += text.data();
 }

@@ -47,7 +47,7 @@ const known = new Map<string, MetricWords>(
     face_change: { title: "Change from the layer before", bound: "least", unit: "part" },
     old_part: { title: "Part still showing the layer before", bound: "most", unit: "part" },
     repeated_rows: { title: "Rows repeated from an earlier frame", bound: "most", unit: "part" },
-    focus_change: { title: "Change of the focus", bound: "within", unit: "micrometres" },
+    focus_change: { title: "Change of the focus, a layer", bound: "within", unit: "micrometres" },
     dead_rows: { title: "Rows without a picture", bound: "most", unit: "part" },
   }),
 );

@@ -31,7 +31,7 @@ export function Charts() {
       <LayerChart
         name="focus_change"
         title="Focus change"
-        about="from where it was expected, in µm"
+        about="against what was expected, in µm a layer"
         bound={metricWords("focus_change").bound}
         text={place}
         tick={plainTick}
