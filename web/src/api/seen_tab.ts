@@ -1,10 +1,17 @@
 import { computed, signal } from "@preact/signals";
 
+/** That a tab was seen last: when, and which. */
+interface Claim {
+  readonly at_ms: number;
+  readonly tab: number;
+}
+
 /** What the tabs of one browser say to each other. */
-type Word =
-  | "seen" // somebody looks at me
-  | "gone" // I was seen last, and am being closed
-  | "mine"; // I take the place of one that is gone
+interface Word {
+  readonly claim: Claim;
+  /** Its tab is being closed. */
+  readonly isOver: boolean;
+}
 
 /** As much of a BroadcastChannel as is used. */
 export interface TabChannel {
@@ -12,7 +19,11 @@ export interface TabChannel {
   onmessage: ((message: { data: Word }) => void) | null;
 }
 
-const longestClaim_ms = 500;
+const longestWait_ms = 500;
+
+/** Of two claims that cross, every tab takes the same for the later one. */
+const isLater = (claim: Claim, other: Claim | null) =>
+  !other || claim.at_ms > other.at_ms || (claim.at_ms === other.at_ms && claim.tab > other.tab);
 
 /**
  * Whether this tab of the browser is to hear the server's events. A browser opens no more than six
@@ -22,48 +33,57 @@ const longestClaim_ms = 500;
  */
 export class SeenTab {
   private readonly seen = signal(false);
-  private readonly last = signal(false);
-  private claim: ReturnType<typeof setTimeout> | undefined;
+  private readonly latest = signal<Claim | null>(null);
+  private wait: ReturnType<typeof setTimeout> | undefined;
 
   /** False: the stream is other tabs'. */
-  readonly hears = computed(() => this.seen.value || this.last.value);
+  readonly hears = computed(() => !this.channel || this.seen.value || this.isLast());
 
   /** Without a channel nothing is known of other tabs, and this one always hears. */
   constructor(
     private readonly channel: TabChannel | null,
     private readonly random = Math.random,
+    private readonly name = Math.random(),
   ) {
     if (channel) channel.onmessage = ({ data }) => this.heard(data);
-    else this.last.value = true;
   }
 
   /** Somebody sees it, or nobody does any more. */
   show(seen: boolean): void {
     this.seen.value = seen;
-    if (seen) this.take("seen");
+    if (seen) this.take();
   }
 
   /** It is being closed. */
   leave(): void {
-    if (!this.channel || !this.last.value) return;
-    this.last.value = false;
-    this.channel.postMessage("gone");
+    const claim = this.latest.value;
+    if (!claim || !this.isLast()) return;
+    this.latest.value = null;
+    this.channel?.postMessage({ claim, isOver: true });
   }
 
-  private take(word: Word): void {
-    clearTimeout(this.claim);
-    this.last.value = true;
-    this.channel?.postMessage(word);
+  private isLast(): boolean {
+    return this.latest.value?.tab === this.name;
   }
 
-  private heard(word: Word): void {
-    clearTimeout(this.claim);
-    if (word !== "gone") {
-      this.last.value = false;
-      return;
+  private take(): void {
+    clearTimeout(this.wait);
+    const before_ms = this.latest.value?.at_ms ?? 0;
+    // Clocks are set back, too.
+    const claim = { at_ms: Math.max(Date.now(), before_ms + 1), tab: this.name };
+    this.latest.value = claim;
+    this.channel?.postMessage({ claim, isOver: false });
+  }
+
+  private heard({ claim, isOver }: Word): void {
+    if (!isOver) {
+      clearTimeout(this.wait);
+      if (isLater(claim, this.latest.value)) this.latest.value = claim;
+    } else if (!isLater(this.latest.value ?? claim, claim)) {
+      this.latest.value = null;
+      // The others hear of it too: whoever speaks first has it.
+      this.wait = setTimeout(() => this.take(), this.random() * longestWait_ms);
     }
-    // The others hear of it too: whoever speaks first has it.
-    this.claim = setTimeout(() => this.take("mine"), this.random() * longestClaim_ms);
   }
 }
 

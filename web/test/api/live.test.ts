@@ -75,7 +75,8 @@ describe("what is known at present", () => {
 
   const hideBehindAnother = () => {
     tab.show(false);
-    channel.onmessage?.({ data: "seen" });
+    const claim = { at_ms: Date.now() + 1, tab: 0 };
+    channel.onmessage?.({ data: { claim, isOver: false } });
   };
 
   it("is not listened for by a tab that nobody sees, and no loss is told of", async () => {

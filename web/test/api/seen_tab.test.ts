@@ -2,15 +2,20 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { SeenTab, type TabChannel } from "../../src/api/seen_tab";
 
-/** A browser in which each tab hears what the others say. */
+/** A browser in which each tab hears what the others say: at once, or `later_ms`. */
 class Browser {
   private readonly channels: TabChannel[] = [];
+
+  constructor(private readonly later_ms = 0) {}
 
   tab(random = 0.5): SeenTab {
     const channel: TabChannel = {
       onmessage: null,
       postMessage: (data) => {
-        for (const other of this.channels) if (other !== channel) other.onmessage?.({ data });
+        const others = this.channels.filter((other) => other !== channel);
+        const tell = () => others.forEach((other) => other.onmessage?.({ data }));
+        if (this.later_ms > 0) setTimeout(tell, this.later_ms);
+        else tell();
       },
     };
     this.channels.push(channel);
@@ -30,6 +35,7 @@ describe("of the tabs of a browser", () => {
   /** As the browser opens a tab before another: that one is hidden first. */
   const openAfter = (before: SeenTab, random?: number) => {
     before.show(false);
+    vi.advanceTimersByTime(100);
     const tab = browser.tab(random);
     tab.show(true);
     return tab;
@@ -73,6 +79,43 @@ describe("of the tabs of a browser", () => {
     expect(hearing(first, second, third)).toEqual([false, false, false]);
     vi.advanceTimersByTime(1000);
     expect(hearing(first, second, third)).toEqual([false, true, false]);
+  });
+
+  it("only one takes its place where all want to at once and hear of each other too late", () => {
+    const slow = new Browser(200);
+    const tabs = [slow.tab(), slow.tab(), slow.tab(), slow.tab()];
+    const last = tabs.pop()!;
+    last.show(true);
+    vi.advanceTimersByTime(1000);
+    last.show(false);
+    last.leave();
+    vi.advanceTimersByTime(600);
+    expect(hearing(...tabs)).toEqual([true, true, true]);
+    vi.advanceTimersByTime(1000);
+    expect(hearing(...tabs).filter((hears) => hears)).toHaveLength(1);
+  });
+
+  it("one that is seen keeps what it took while the last one was being closed", () => {
+    const slow = new Browser(200);
+    const [first, second, third] = [slow.tab(), slow.tab(), slow.tab()];
+    first.show(true);
+    vi.advanceTimersByTime(1000);
+    first.show(false);
+    second.show(true);
+    first.leave();
+    second.show(false);
+    vi.advanceTimersByTime(2000);
+    expect(hearing(first, second, third)).toEqual([false, true, false]);
+  });
+
+  it("a clock that is set back changes nothing", () => {
+    const [first, second] = [browser.tab(), browser.tab()];
+    first.show(true);
+    first.show(false);
+    vi.setSystemTime(Date.now() - 3_600_000);
+    second.show(true);
+    second.show(false);
+    expect(hearing(first, second)).toEqual([false, true]);
   });
 
   it("none takes the place of one that was not the last", () => {
