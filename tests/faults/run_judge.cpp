@@ -265,21 +265,33 @@ class Judge {
     }
   }
 
+  /// The frames from `first` on that show, in its order, what a search measured until its record.
+  std::vector<std::size_t> frames_from(std::size_t first, const RunJournal::Search& search) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = first; i < recorded_.size() && found.size() < search.columns_um.size();
+         ++i) {
+      const WitnessedFrame& frame = witness_.frames[i];
+      if (recorded_[i] || frame.at > search.at || layer_at(frame.face_um) != search.layer) continue;
+      const double column_um = search.columns_um[found.size()];
+      if (std::abs(frame.column_um - column_um) <= kStepUm) found.push_back(i);
+    }
+    return found;
+  }
+
+  /// Two frames at one place of the column are told apart by the order in which they were taken.
   void match_searches() {
     for (const RunJournal::Search& search : journal_.searches) {
-      for (const double column_um : search.columns_um) {
-        const auto match = last_frame_until(search.at, [&](const WitnessedFrame& frame) {
-          return layer_at(frame.face_um) == search.layer &&
-                 std::abs(frame.column_um - column_um) <= kStepUm;
-        });
-        if (match) {
-          recorded_[*match] = true;
-        } else {
-          complaints_.add("the search of ", search.at, " at layer ", search.layer,
-                          " measured a frame at ", column_um,
-                          " µm of the column, which the twin did not take");
-        }
+      std::vector<std::size_t> found;
+      for (std::size_t first = recorded_.size();
+           first-- > 0 && found.size() < search.columns_um.size();) {
+        std::vector<std::size_t> from_here = frames_from(first, search);
+        if (from_here.size() > found.size()) found = std::move(from_here);
       }
+      for (const std::size_t i : found) recorded_[i] = true;
+      if (found.size() == search.columns_um.size()) continue;
+      complaints_.add("the search of ", search.at, " at layer ", search.layer,
+                      " measured a frame at ", search.columns_um[found.size()],
+                      " µm of the column, which the twin did not take");
     }
   }
 

@@ -263,6 +263,20 @@ TEST_F(RunJudge, TellsASearchThatAKillBrokeOffFromTheOneThatRepeatedIt) {
   EXPECT_THAT(verdict(), IsEmpty());
 }
 
+TEST_F(RunJudge, TellsTheLastFrameOfASearchFromTheOneAtItsPlaceThatAKillLost) {
+  run.grind(1);
+  run.take_frame(1, 640.0);
+  run.move_column();
+  run.take_frame(1, 660.0);
+  run.take_frame(1, 660.0);
+  run.record_search(1, {640.0, 660.0});  // of the same millisecond
+  run.kill(0);
+  run.take_frame(1);
+  run.commit(1);
+  run.make_from(2);
+  EXPECT_THAT(verdict(), IsEmpty());
+}
+
 TEST_F(RunJudge, FindsASearchThatMeasuredWhatWasNotTaken) {
   run.grind(1);
   run.take_frame(1, 640.0);
