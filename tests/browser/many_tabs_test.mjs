@@ -86,11 +86,16 @@ test("the one that was looked at last tells of an alarm, and sounds it, unseen",
 });
 
 test("another takes its place when it is closed", async () => {
-  await pages.shift().close();
-  await until("an alarm in another tab's title", async () => {
-    const titles = await Promise.all(pages.map((page) => page.title()));
-    return titles.filter((title) => title.includes("ALARM")).length === 1;
-  });
+  const [closed] = pages.splice(0, 1);
+  const gone = closed.waitForEvent("close");
+  await closed.close({ runBeforeUnload: true }); // as by a person: the page is told
+  await gone;
+  const titles = () => Promise.all(pages.map((page) => page.title()));
+  await until(
+    "an alarm in another tab's title",
+    async () => (await titles()).filter((title) => title.includes("ALARM")).length === 1,
+    { said: async () => (await titles()).join(", ") },
+  );
 });
 
 test("nothing failed and nothing was complained of", () => tab.assertNoFaults());

@@ -20,6 +20,9 @@ export interface TabChannel {
 }
 
 const longestWait_ms = 500;
+// A tab that crashed says nothing. One that nobody sees is woken once a minute by some browsers.
+const sign_ms = 60_000;
+const longestSilence_ms = 4 * sign_ms;
 
 /** Of two claims that cross, every tab takes the same for the later one. */
 const isLater = (claim: Claim, other: Claim | null) =>
@@ -35,6 +38,7 @@ export class SeenTab {
   private readonly seen = signal(false);
   private readonly latest = signal<Claim | null>(null);
   private wait: ReturnType<typeof setTimeout> | undefined;
+  private heard_ms = Date.now();
 
   /** False: the stream is other tabs'. */
   readonly hears = computed(() => !this.channel || this.seen.value || this.isLast());
@@ -45,7 +49,9 @@ export class SeenTab {
     private readonly random = Math.random,
     private readonly name = Math.random(),
   ) {
-    if (channel) channel.onmessage = ({ data }) => this.heard(data);
+    if (!channel) return;
+    channel.onmessage = ({ data }) => this.heard(data);
+    setInterval(() => this.giveSign(), sign_ms);
   }
 
   /** Somebody sees it, or nobody does any more. */
@@ -66,6 +72,12 @@ export class SeenTab {
     return this.latest.value?.tab === this.name;
   }
 
+  private giveSign(): void {
+    const claim = this.latest.value;
+    if (claim && this.isLast()) this.channel?.postMessage({ claim, isOver: false });
+    else if (Date.now() - this.heard_ms > longestSilence_ms) this.take();
+  }
+
   private take(): void {
     clearTimeout(this.wait);
     const before_ms = this.latest.value?.at_ms ?? 0;
@@ -76,6 +88,7 @@ export class SeenTab {
   }
 
   private heard({ claim, isOver }: Word): void {
+    this.heard_ms = Date.now();
     if (!isOver) {
       clearTimeout(this.wait);
       if (isLater(claim, this.latest.value)) this.latest.value = claim;

@@ -29,10 +29,12 @@ export function hashOf(path: (string | number)[], query?: URLSearchParams): stri
   return `#/${path.map((part) => encodeURIComponent(part)).join("/")}${text ? `?${text}` : ""}`;
 }
 
-export const route = signal<Route>(parseHash(location.hash));
+let followed = location.hash;
+export const route = signal<Route>(parseHash(followed));
 
 const follow = (): void => {
-  route.value = parseHash(location.hash);
+  followed = location.hash;
+  route.value = parseHash(followed);
 };
 window.addEventListener("hashchange", follow);
 
@@ -41,8 +43,12 @@ export function goTo(hash: string): void {
   location.hash = hash;
 }
 
-/** The address of what is shown already: no new entry in the history. */
+/**
+ * The address of what is shown already: no new entry in the history. Where somebody has just gone
+ * elsewhere, which the page is told a moment later, that is kept.
+ */
 export function replaceHash(hash: string): void {
+  if (location.hash !== followed) return follow();
   if (hash === location.hash) return;
   history.replaceState(history.state, "", hash);
   follow();

@@ -5,6 +5,8 @@ import { SeenTab, type TabChannel } from "../../src/api/seen_tab";
 /** A browser in which each tab hears what the others say: at once, or `later_ms`. */
 class Browser {
   private readonly channels: TabChannel[] = [];
+  private readonly crashed = new Set<TabChannel>();
+  private readonly channelOf = new Map<SeenTab, TabChannel>();
 
   constructor(private readonly later_ms = 0) {}
 
@@ -12,6 +14,7 @@ class Browser {
     const channel: TabChannel = {
       onmessage: null,
       postMessage: (data) => {
+        if (this.crashed.has(channel)) return;
         const others = this.channels.filter((other) => other !== channel);
         const tell = () => others.forEach((other) => other.onmessage?.({ data }));
         if (this.later_ms > 0) setTimeout(tell, this.later_ms);
@@ -19,7 +22,14 @@ class Browser {
       },
     };
     this.channels.push(channel);
-    return new SeenTab(channel, () => random);
+    const tab = new SeenTab(channel, () => random);
+    this.channelOf.set(tab, channel);
+    return tab;
+  }
+
+  /** It is never heard of again. */
+  crash(tab: SeenTab): void {
+    this.crashed.add(this.channelOf.get(tab)!);
   }
 }
 
@@ -106,6 +116,20 @@ describe("of the tabs of a browser", () => {
     second.show(false);
     vi.advanceTimersByTime(2000);
     expect(hearing(first, second, third)).toEqual([false, true, false]);
+  });
+
+  it("another, and only one, takes the place of one that crashed", () => {
+    const tabs = [browser.tab(), browser.tab(), browser.tab()];
+    const last = browser.tab();
+    last.show(true);
+    last.show(false);
+    vi.advanceTimersByTime(600_000);
+    expect(hearing(...tabs)).toEqual([false, false, false]);
+    browser.crash(last);
+    vi.advanceTimersByTime(120_000);
+    expect(hearing(...tabs)).toEqual([false, false, false]);
+    vi.advanceTimersByTime(240_000);
+    expect(hearing(...tabs).filter((hears) => hears)).toHaveLength(1);
   });
 
   it("a clock that is set back changes nothing", () => {
