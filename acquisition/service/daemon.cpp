@@ -41,6 +41,7 @@
 #include "acquisition/service/stop_signals.hpp"
 #include "acquisition/service/watched_worker.hpp"
 #include "acquisition/viewer/sample_api.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -50,7 +51,6 @@ using std::chrono::steady_clock;
 
 constexpr int kFailure = 1;
 constexpr const char* kComponent = "daemon";
-constexpr const char* kJournalName = "journal.sqlite";
 constexpr milliseconds kLook{200};     // between two looks of the main thread at the others
 constexpr milliseconds kStopLook{50};  // the same while the rig is brought to rest
 constexpr milliseconds kStopExtension{10000};
@@ -213,7 +213,7 @@ int run_daemon(const Configuration& configuration) {
   warn_of_short_watchdog(systemd, configuration);
   const JobPlan& plan = configuration.job.plan;
   const SampleLock lock(plan.sample);
-  const std::filesystem::path journal = plan.sample / kJournalName;
+  const std::filesystem::path journal = plan.sample / reconstruct::SampleFolder::kJournalName;
   const auto devices_stage = make_stage(configuration.stage);
   const auto lines = make_lines(configuration.lines);
   const auto devices_camera = make_camera(configuration.camera);

@@ -7,6 +7,7 @@
 
 #include "acquisition/viewer/file_version.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -39,13 +40,14 @@ LiveSample::LiveSample(const fs::path& folder, std::size_t cache_bytes)
       generation_(milliseconds_now()) {}
 
 void LiveSample::refresh() {
-  const std::string files = file_version(folder_ / "sample.toml") + ';' +
-                            file_version(folder_ / "volume.ome.zarr" / "zarr.json");
+  const std::string files =
+      file_version(folder_ / reconstruct::SampleFolder::kDescriptionName) + ';' +
+      file_version(folder_ / reconstruct::SampleFolder::kVolumeName / "zarr.json");
   const std::int64_t known = view_ ? view_->sample.tail.layers_present() : 0;
   if (view_ && files == files_ && view_->sample.folder.layers_on_disk(known + 1) == 0) return;
   const bool other_files = files != files_;
   files_ = files;
-  const std::string volume = folder_number(folder_ / "volume.ome.zarr");
+  const std::string volume = folder_number(folder_ / reconstruct::SampleFolder::kVolumeName);
   const std::shared_ptr<const SampleView> before =
       volume == volume_ ? std::exchange(view_, nullptr) : nullptr;
   view_ = nullptr;
@@ -59,7 +61,7 @@ void LiveSample::refresh() {
 }
 
 bool LiveSample::is_there() const {
-  return fs::exists(folder_ / "sample.toml");
+  return fs::exists(folder_ / reconstruct::SampleFolder::kDescriptionName);
 }
 
 std::shared_ptr<const SampleView> LiveSample::look() {

@@ -26,6 +26,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/excerpt.hpp"
 #include "reconstruct/interruption.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -74,7 +75,7 @@ struct SampleApi::State {
         series(live),
         records(live, settings.journal),
         images(live, records, arena, settings.decoded_bytes),
-        volume(live.folder() / "volume.ome.zarr"),
+        volume(live.folder() / reconstruct::SampleFolder::kVolumeName),
         exports(
             live, arena,
             {settings.exports.empty() ? default_exports_folder(live.folder()) : settings.exports,

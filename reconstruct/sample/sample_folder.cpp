@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDescriptionName = "sample.toml";
 constexpr const char* kLayersName = "layers";
 constexpr const char* kRejectedName = "rejected";
 constexpr std::int64_t kMostVoxels = 1'000'000;  // along one axis
@@ -228,10 +227,10 @@ std::int64_t SampleFolder::layers_on_disk(std::int64_t first) const {
 }
 
 fs::path SampleFolder::volume_path() const {
-  return path_ / "volume.ome.zarr";
+  return path_ / kVolumeName;
 }
 fs::path SampleFolder::journal_path() const {
-  return path_ / "journal.sqlite";
+  return path_ / kJournalName;
 }
 fs::path SampleFolder::hashes_path() const {
   return path_ / "layers.sha256";

@@ -20,6 +20,11 @@ struct SampleDescription {
 /// A sample on disk: the folder and the names of what lies in it.
 class SampleFolder {
  public:
+  // For those who look before there is a sample to open, or while it grows.
+  static constexpr const char* kDescriptionName = "sample.toml";
+  static constexpr const char* kVolumeName = "volume.ome.zarr";
+  static constexpr const char* kJournalName = "journal.sqlite";
+
   /// Whether a sample can be begun at `path`: there is nothing, an empty folder, or what `create`
   /// leaves when it is killed, which has no image and no description in it yet.
   static bool can_begin(const std::filesystem::path& path);
