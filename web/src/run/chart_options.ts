@@ -65,6 +65,7 @@ export function chartOptions({
       {
         ...axis,
         size: 56,
+        space: 24, // px at least between lines
         // An axis without anything on it says nothing.
         values: (made, ticks, _axis, _space, step) =>
           made.data[0].length === 0 ? [] : ticks.map((value) => tick(value, step)),
