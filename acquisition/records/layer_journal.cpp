@@ -1,6 +1,8 @@
 #include "acquisition/records/layer_journal.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <nlohmann/json.hpp>
@@ -17,8 +19,11 @@ namespace biotomy::acquisition {
 namespace {
 
 using nlohmann::json;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 constexpr int kBusyTimeoutMs = 5000;
+constexpr milliseconds kBusyRetry(10);
 
 std::string telemetry_json(const bridge::StageStatus& status) {
   return json{{"feed_um", status.feed.value},
@@ -101,12 +106,23 @@ struct LayerJournal::State {
   /// all that the write-ahead log holds goes into the database anew, with an fsync of its own, and
   /// the log is begun anew, as what follows a hole in it would be lost with the hole.
   void believe_only_the_disk() {
+    // For readers the checkpoint waits by itself; that it does not for another checkpoint, such as
+    // the one with which a former job's journal is closed, SQLite says of
+    // sqlite3_wal_checkpoint_v2.
+    const auto deadline = steady_clock::now() + milliseconds(kBusyTimeoutMs);
+    while (!moved_log_into_database()) {
+      if (steady_clock::now() > deadline) {
+        throw JournalError("the journal " + path.string() +
+                           " is read by another program all the time: stop it first");
+      }
+      std::this_thread::sleep_for(kBusyRetry);
+    }
+  }
+
+  bool moved_log_into_database() {
     SQLite::Statement checkpoint(database, "PRAGMA wal_checkpoint(TRUNCATE)");
     checkpoint.executeStep();
-    if (checkpoint.getColumn(0).getInt() != 0) {
-      throw JournalError("the journal " + path.string() +
-                         " is read by another program all the time: stop it first");
-    }
+    return checkpoint.getColumn(0).getInt() == 0;
   }
 
   void insert_attempt(const AttemptRow& attempt) {

@@ -1,6 +1,9 @@
 #include "acquisition/records/layer_journal.hpp"
 
+#include <chrono>
 #include <fstream>
+#include <optional>
+#include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -51,6 +54,29 @@ TEST_F(LayerJournalTest, WritesAnewWhatOnlyItsLogHolds) {
     std::filesystem::copy_file(other, folder.path() / "database-alone.sqlite");
   }
   EXPECT_EQ(LayerJournal(folder.path() / "database-alone.sqlite").summary().last_committed, 1);
+}
+
+TEST_F(LayerJournalTest, WaitsWhileItsLogIsMovedByAnother) {
+  LayerJournal{path};
+  const auto opened = [&] {
+    return SQLite::Database(path.string(), SQLite::OPEN_READWRITE, 10000);
+  };
+  SQLite::Database reader = opened();
+  std::optional<SQLite::Transaction> reading(std::in_place, reader);
+  reader.execAndGet("SELECT count(*) FROM layers");
+  SQLite::Database writer = opened();
+  writer.exec("INSERT INTO events (at, kind, state, layer, text) VALUES ('', 'state', '', 1, '')");
+  // Its checkpoint waits for the reader, and no other can begin meanwhile.
+  const std::jthread mover([&] { writer.execAndGet("PRAGMA wal_checkpoint(TRUNCATE)"); });
+  SQLite::Database other = opened();
+  while (other.execAndGet("PRAGMA wal_checkpoint(PASSIVE)").getInt() == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const std::jthread leaver([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    reading.reset();
+  });
+  EXPECT_NO_THROW(LayerJournal{path});
 }
 
 TEST_F(LayerJournalTest, RemembersAcrossARestart) {
