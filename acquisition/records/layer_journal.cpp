@@ -106,9 +106,8 @@ struct LayerJournal::State {
   /// all that the write-ahead log holds goes into the database anew, with an fsync of its own, and
   /// the log is begun anew, as what follows a hole in it would be lost with the hole.
   void believe_only_the_disk() {
-    // For readers the checkpoint waits by itself; that it does not for another checkpoint, such as
-    // the one with which a former job's journal is closed, SQLite says of
-    // sqlite3_wal_checkpoint_v2.
+    // For readers the checkpoint waits by itself. For whoever holds the checkpoint's own lock, as
+    // another checkpoint does, it does not: see sqlite3_wal_checkpoint_v2.
     const auto deadline = steady_clock::now() + milliseconds(kBusyTimeoutMs);
     while (!moved_log_into_database()) {
       if (steady_clock::now() > deadline) {

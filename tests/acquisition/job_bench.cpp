@@ -75,6 +75,11 @@ bool JobBench::reach(JobState wanted, int ticks) {
   return state() == wanted;
 }
 
+bool JobBench::reach_committed(std::int64_t layers, int ticks) {
+  for (int i = 0; i < ticks && board.look()->committed < layers; ++i) tick();
+  return board.look()->committed >= layers;
+}
+
 OperatorReply JobBench::say(OperatorCommand command) {
   auto reply = desk.post(command, "");
   for (int i = 0; i < 1000 && !is_ready(reply); ++i) tick();

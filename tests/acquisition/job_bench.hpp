@@ -55,6 +55,9 @@ struct JobBench {
   /// Ticks until the job is in the state; false when it does not get there.
   bool reach(acquisition::JobState state, int ticks = 5000);
 
+  /// Likewise, until so many layers are committed.
+  bool reach_committed(std::int64_t layers, int ticks = 5000);
+
   /// Lays the command down, ticks until it is answered.
   acquisition::OperatorReply say(acquisition::OperatorCommand command);
 

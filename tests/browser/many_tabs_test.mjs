@@ -86,7 +86,7 @@ test("the one that was looked at last tells of an alarm, and sounds it, unseen",
 });
 
 test("another takes its place when it is closed", async () => {
-  const [closed] = pages.splice(0, 1);
+  const closed = pages.shift();
   const gone = closed.waitForEvent("close");
   await closed.close({ runBeforeUnload: true }); // as by a person: the page is told
   await gone;

@@ -193,49 +193,53 @@ TEST_F(HttpServerTest, WritesNoHeaderThatCameFromElsewhere) {
   EXPECT_FALSE(response->has_header("Set-Cookie"));
 }
 
+/// A server of which one lane works on a request for `path` and holds another, and has room for no
+/// more until it is let go.
+class FullLane {
+ public:
+  FullLane(HttpServerTest& test, LaneSize& lane, const std::string& path)
+      : ends_first_(test.server) {
+    test.application.answers = [this, path](const ApiRequest& request) {
+      if (request.path == path) gate_.pass();
+      return ApiResponse{};
+    };
+    lane = {.threads = 1, .most_waiting = 1};
+    const int port = test.start();
+    worked_on_.emplace(port).get(path);
+    gate_.wait_for(1);
+    waiting_.emplace(port).get(path);
+    wait_until([&] { return test.application.asked == 2; });
+  }
+
+  /// What the request that waited is answered.
+  std::string let_go() {
+    gate_.open();
+    return waiting_->read_until("\r\n\r\n");
+  }
+
+ private:
+  Gate gate_;
+  EndsFirst ends_first_;
+  std::optional<RawClient> worked_on_;
+  std::optional<RawClient> waiting_;
+};
+
 TEST_F(HttpServerTest, RefusesAtOnceWhatALaneHasNoRoomFor) {
-  Gate gate;
-  const EndsFirst ends_first(server);
-  application.answers = [&](const ApiRequest& request) {
-    if (request.path == "/picture") gate.pass();
-    return ApiResponse{};
-  };
-  settings.limits.pictures = {.threads = 1, .most_waiting = 1};
-  const int port = start();
-  RawClient worked_on(port);
-  worked_on.get("/picture");
-  gate.wait_for(1);
-  RawClient waiting(port);
-  waiting.get("/picture");
-  wait_until([&] { return application.asked == 2; });
-  httplib::Client other("127.0.0.1", port);
+  FullLane pictures(*this, settings.limits.pictures, "/picture");
+  httplib::Client other("127.0.0.1", server->port());
   const auto refused = other.Get("/picture");
   EXPECT_EQ(refused->status, 503);
   EXPECT_EQ(refused->get_header_value("Retry-After"), "1");
   EXPECT_EQ(other.Get("/quick")->status, 200);
-  gate.open();
-  EXPECT_THAT(waiting.read_until("\r\n\r\n"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(pictures.let_go(), StartsWith("HTTP/1.1 200"));
 }
 
 TEST_F(HttpServerTest, TakesCommandsWhenThereIsNoRoomForLooks) {
-  Gate gate;
-  const EndsFirst ends_first(server);
-  application.answers = [&](const ApiRequest& request) {
-    if (request.path == "/look") gate.pass();
-    return ApiResponse{};
-  };
-  settings.limits.quick = {.threads = 1, .most_waiting = 1};
-  const int port = start();
-  RawClient worked_on(port);
-  worked_on.get("/look");
-  gate.wait_for(1);
-  RawClient waiting(port);
-  waiting.get("/look");
-  wait_until([&] { return application.asked == 2; });
-  httplib::Client operators(std::string("127.0.0.1"), port);
+  FullLane looks(*this, settings.limits.quick, "/look");
+  httplib::Client operators("127.0.0.1", server->port());
   EXPECT_EQ(operators.Get("/look")->status, 503);
   EXPECT_EQ(operators.Post("/command")->status, 200);
-  gate.open();
+  EXPECT_THAT(looks.let_go(), StartsWith("HTTP/1.1 200"));
 }
 
 TEST_F(HttpServerTest, TellsWorkThatItsClientHasLeft) {

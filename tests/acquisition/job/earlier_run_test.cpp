@@ -77,7 +77,7 @@ struct CrashedDaemon : testing::Test {
     bench.settings.plan.after_restart = JobPlan::AfterRestart::go_on;
     bench.start_daemon();
     bench.start_job();
-    while (bench.board.look()->committed < 2) bench.tick();
+    EXPECT_TRUE(bench.reach_committed(2)) << bench.alarm();
     EXPECT_TRUE(bench.reach(JobState::clearing));
     bench.job.reset();
     // The controller has missed the daemon's heartbeat and stopped by itself.

@@ -66,7 +66,7 @@ TEST(FocusStep, TellsWithEachFrameHowFarTheFocusIsFromWhereItWasExpected) {
 TEST(FocusStep, SaysThatASearchFoundTheFocusFarFromWhereItWasExpected) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 2) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
   bench.camera.column_to_face_um += 100.0;
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.count_rows(

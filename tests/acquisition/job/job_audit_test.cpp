@@ -53,7 +53,7 @@ TEST_F(JobAudit, HasRemarksOfARunningJob) {
 
 TEST_F(JobAudit, ShowsWhyTheJobPausedByItself) {
   start_job();
-  while (board.look()->committed < 1) tick();
+  ASSERT_TRUE(reach_committed(1)) << alarm();
   camera.black_frames = 1000000;
   ASSERT_TRUE(reach(JobState::paused)) << alarm();
   EXPECT_THAT(board.look()->pause_cause, HasSubstr("no frame of layer 2 was good enough"));

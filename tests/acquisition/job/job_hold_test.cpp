@@ -139,7 +139,7 @@ TEST(JobHold, OfAFullDiskGoesOnByItselfWhenThereIsRoom) {
   bench.settings.limits.disk_resumes = true;
   bench.start_daemon();
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.free_bytes = kNoRoom;
   ASSERT_TRUE(bench.reach(JobState::held)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("layers"), 2);  // the layer in work is safe
@@ -158,7 +158,7 @@ TEST(JobHold, OfAFullDiskWaitsForAsMuchRoomAsThePreflightAsksFor) {
   bench.settings.plan.layers = 60;
   bench.start_daemon();
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.free_bytes = kNoRoom;
   ASSERT_TRUE(bench.reach(JobState::held)) << bench.alarm();
   bench.free_bytes = std::uintmax_t{45} * 2 * 96 * 64 * 3;  // 45 layers, and 58 are to come
@@ -172,7 +172,7 @@ TEST(JobHold, OfAFullDiskWaitsForAsMuchRoomAsThePreflightAsksFor) {
 TEST(JobPause, TellsWhyWhenNobodyAskedForIt) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.camera.black_frames = 1000000;
   ASSERT_TRUE(bench.reach(JobState::paused));
   EXPECT_THAT(bench.board.look()->pause_cause, HasSubstr("no frame of layer 2 was good enough"));

@@ -96,7 +96,7 @@ TEST(Job, DoesNotGrindBeforeTheLayerBeforeIsStoredAndCommitted) {
 TEST(Job, GrindsNoFurtherWhenALayerCannotBeStored) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 2) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
   bench.store_failure = "layers/000003.tif: No space left on device";
   ASSERT_TRUE(bench.reach(JobState::faulted));
   EXPECT_THAT(bench.alarm(), HasSubstr("No space left on device"));
@@ -132,7 +132,7 @@ TEST(Job, StoresAFrameInHandBeforeItPauses) {
 TEST(Job, AbortsAtOnceAndCanBeStartedAgainWhereItWas) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 2) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
   EXPECT_TRUE(bench.say(OperatorCommand::abort).accepted);
   ASSERT_TRUE(bench.reach(JobState::aborted));
   EXPECT_GE(bench.stage.count(bridge::StageAction::stop), 1);
@@ -166,7 +166,7 @@ TEST(Job, ComesToRestWhenTheDaemonIsToldToEnd) {
 TEST(Job, PreparesALayerWhileItIsAssessedAndGivesUpThatOfARejectedFrame) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.camera.black_frames = 1;  // layer 2 needs no search: its first attempt
   ASSERT_TRUE(bench.reach(JobState::assessing));
   EXPECT_EQ(bench.prepared, 2);
@@ -182,7 +182,7 @@ TEST(Job, PreparesALayerWhileItIsAssessedAndGivesUpThatOfARejectedFrame) {
 TEST(Job, ClimbsTheLadderUntilAFrameIsGood) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.camera.black_frames = 2;  // layer 2 needs no search: its first two attempts
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'too-dark'"), 2);
@@ -195,7 +195,7 @@ TEST(Job, ClimbsTheLadderUntilAFrameIsGood) {
 TEST(Job, PausesWhenNoFrameIsGoodEnoughAndKeepsEveryRecord) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.camera.black_frames = 1000000;
   ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND verdict = 'rejected'"), 4);
@@ -216,7 +216,7 @@ TEST(Job, PausesAfterASecondFrameWhenTheGrindRemovedNothing) {
     bench.settings.ladder.exhausted = exhausted;
     bench.start_daemon();
     bench.start_job();
-    while (bench.board.look()->committed < 2) bench.tick();
+    ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
     bench.camera.stuck_face_um = 1020.0;  // layer 2's
     ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
     EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND slug = 'face-unchanged'"), 2);
@@ -236,7 +236,7 @@ TEST(Job, PausesAfterASecondFrameWhenTheGrindRemovedNothing) {
 TEST(Job, ComparesTheFirstFaceAfterARestartWithTheLastStoredOne) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 2) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
   bench.start_daemon();
   bench.camera.stuck_face_um = 1020.0;
   bench.start_job();
@@ -249,7 +249,7 @@ TEST(Job, DoesNotAcceptABlurredFrameOfAFaceThatTurnsOutToBeOld) {
   bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
   bench.start_daemon();
   bench.start_job();
-  while (bench.board.look()->committed < 2) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
   bench.camera.stuck_face_um = 1020.0;     // layer 2's
   bench.camera.column_to_face_um += 60.0;  // and out of focus, until the ladder focuses again
   ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
@@ -263,7 +263,7 @@ TEST(Job, NeverStoresAnOldPictureWhateverThePolicy) {
   bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
   bench.start_daemon();
   bench.start_job();
-  while (bench.board.look()->committed < 2) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
   bench.camera.frozen = true;
   ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("layers"), 2);
@@ -274,7 +274,7 @@ TEST(Job, NeverStoresAnOldPictureWhateverThePolicy) {
 TEST(Job, TakesAgainAFrameThatWasExposedBeforeItWasAskedFor) {
   JobBench bench;
   bench.start_job();
-  while (bench.board.look()->committed < 1) bench.tick();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.camera.old_frames = 1;
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'stale'"), 1);

@@ -67,11 +67,18 @@ TEST_F(LayerJournalTest, WaitsWhileItsLogIsMovedByAnother) {
   SQLite::Database writer = opened();
   writer.exec("INSERT INTO events (at, kind, state, layer, text) VALUES ('', 'state', '', 1, '')");
   // Its checkpoint waits for the reader, and no other can begin meanwhile.
-  const std::jthread mover([&] { writer.execAndGet("PRAGMA wal_checkpoint(TRUNCATE)"); });
+  const std::jthread mover([&](const std::stop_token& stop) {
+    const char* const move = "PRAGMA wal_checkpoint(TRUNCATE)";
+    while (!stop.stop_requested() && writer.execAndGet(move).getInt() != 0) {
+    }
+  });
   SQLite::Database other = opened();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (other.execAndGet("PRAGMA wal_checkpoint(PASSIVE)").getInt() == 0) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "nobody moves the log";
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  // Long enough for the journal to be opened in vain at first.
   const std::jthread leaver([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     reading.reset();

@@ -205,8 +205,8 @@ TEST(Sampler, AgreesWithTheDefinitionInLongRunsOf16Bits) {
   }
 }
 
-// Whole rows of pixels whose texels lie in two chunks, along each axis; from voxel to voxel, and so
-// not.
+// Whole rows of pixels whose texels lie in two chunks, along each axis; some run from voxel to
+// voxel, some between.
 TEST(Sampler, AgreesWithTheDefinitionBetweenChunks) {
   struct Case {
     GridSize size;
