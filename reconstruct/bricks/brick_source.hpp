@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "reconstruct/bricks/brick_cells.hpp"
 #include "reconstruct/geometry/cuboid.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume.hpp"
@@ -31,11 +32,13 @@ class BrickSource {
   /// How many bytes of bricks may be held: who needs more at once asks for them in parts.
   virtual std::size_t capacity_bytes() const = 0;
 
-  /// The bricks of `wanted`, in its order. What has to be fetched is fetched together.
-  virtual std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted) = 0;
+  /// The bricks of `wanted`, in its order. What has to be fetched is fetched together. Their texels
+  /// that lie near the plane are those of the level; others may mean nothing.
+  virtual std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted,
+                                         const PlaneReach& plane) = 0;
 
   /// These will be asked for soon: whoever can may begin to read them. Returns at once.
-  virtual void expect(int level, std::span<const ChunkIndex> soon) = 0;
+  virtual void expect(int level, std::span<const ChunkIndex> soon, const PlaneReach& plane) = 0;
 };
 
 }  // namespace biotomy::reconstruct

@@ -7,7 +7,7 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr int kVectorBytes = 16;
-constexpr std::ptrdiff_t kReadBehind = std::ptrdiff_t{2} * kVectorBytes;
+constexpr int kReadBehind = 2 * kVectorBytes;
 
 int divide_up(int size, int side) {
   return (size + side - 1) / side;
@@ -15,19 +15,14 @@ int divide_up(int size, int side) {
 
 /// A row of voxels into the rows of its blocks, by loads and stores of whole vectors: what a store
 /// writes too much the next one overwrites, so blocks' rows are filled from the first to the last.
-/// Of a known number of bytes per level, so that the compiler knows all steps.
-template <int level_bytes>
+template <int row_bytes, std::ptrdiff_t step, std::ptrdiff_t block_bytes>
 void lay_row_in_vectors(const std::byte* voxels, int blocks, std::byte* out) {
-  constexpr int kRowBytes = (TexelBlocks::kSide + 1) * TexelBlocks::kColours * level_bytes;
-  constexpr std::ptrdiff_t kStep =
-      std::ptrdiff_t{TexelBlocks::kSide} * TexelBlocks::kColours * level_bytes;
-  constexpr std::ptrdiff_t kBlock = std::ptrdiff_t{TexelBlocks::kBlockLevels} * level_bytes;
   for (int block = 0; block < blocks; ++block) {
-    for (int part = 0; part < kRowBytes; part += kVectorBytes) {
+    for (int part = 0; part < row_bytes; part += kVectorBytes) {
       std::memcpy(out + part, voxels + part, kVectorBytes);
     }
-    voxels += kStep;
-    out += kBlock;
+    voxels += step;
+    out += block_bytes;
   }
 }
 
@@ -51,21 +46,38 @@ TexelBlocks::TexelBlocks(const std::array<int, 3>& shape, int bits)
       blocks_y_(divide_up(shape[1], kSide)) {}
 
 void TexelBlocks::lay_out(std::span<const std::byte> voxels, std::byte* brick) const {
-  const int step = kSide * texel_bytes();
-  const int row_of_voxels = shape_[2] * texel_bytes();
-  const std::byte* const end = voxels.data() + voxels.size();
-  const std::byte* in = voxels.data();
-  for (int z = 0; z < shape_[0]; ++z) {
-    std::byte* const layer = brick + std::ptrdiff_t{z} * layer_bytes();
-    for (int y = 0; y < shape_[1]; ++y) {
+  lay_out(voxels, {{}, {shape_[2], shape_[1], shape_[0]}}, brick);
+}
+
+void TexelBlocks::lay_out(std::span<const std::byte> voxels, const Box& box,
+                          std::byte* brick) const {
+  level_bytes_ == 1 ? lay_out_levels<1>(voxels, box, brick) : lay_out_levels<2>(voxels, box, brick);
+}
+
+// Of a known number of bytes per level, so that the compiler knows all steps.
+template <int level_bytes>
+void TexelBlocks::lay_out_levels(std::span<const std::byte> voxels, const Box& box,
+                                 std::byte* brick) const {
+  constexpr int kRowBytes = (kSide + 1) * kColours * level_bytes;
+  constexpr int kStep = kSide * kColours * level_bytes;
+  constexpr int kBlock = kBlockLevels * level_bytes;
+  const int blocks = divide_up(box.end[0], kSide) - box.first[0] / kSide;
+  const int rest_of_row = (shape_[2] - box.first[0]) * kColours * level_bytes;
+  const std::ptrdiff_t row_of_voxels = std::ptrdiff_t{shape_[2]} * kColours * level_bytes;
+  const std::byte* const last_in_vectors =
+      voxels.data() + voxels.size() -
+      std::min(voxels.size(), static_cast<std::size_t>(blocks * kStep + kReadBehind));
+  for (int z = box.first[2]; z < box.end[2]; ++z) {
+    std::byte* const layer = brick + std::ptrdiff_t{z} * layer_bytes() + along_x(box.first[0]);
+    const std::byte* in = voxels.data() + std::ptrdiff_t{box.first[0]} * kColours * level_bytes +
+                          (std::ptrdiff_t{z} * shape_[1] + box.first[1]) * row_of_voxels;
+    for (int y = box.first[1]; y < box.end[1]; ++y, in += row_of_voxels) {
       std::byte* const out = layer + along_y(y);
-      if (end - in >= std::ptrdiff_t{blocks_x_} * step + kReadBehind) {
-        level_bytes_ == 1 ? lay_row_in_vectors<1>(in, blocks_x_, out)
-                          : lay_row_in_vectors<2>(in, blocks_x_, out);
+      if (in < last_in_vectors) {
+        lay_row_in_vectors<kRowBytes, kStep, kBlock>(in, blocks, out);
       } else {
-        lay_row_exactly(in, row_of_voxels, blocks_x_, step, block_bytes(), row_bytes(), out);
+        lay_row_exactly(in, rest_of_row, blocks, kStep, kBlock, kRowBytes, out);
       }
-      in += row_of_voxels;
     }
   }
 }

@@ -56,10 +56,22 @@ class TexelBlocks {
   /// Lays the voxels of a chunk (as ChunkVoxels has them) out as a brick.
   void lay_out(std::span<const std::byte> voxels, std::byte* brick) const;
 
+  /// Voxels of a chunk, along each axis from `first` to before `end`.
+  struct Box {
+    std::array<int, 3> first{};  ///< x, y, z; along x and y multiples of kSide
+    std::array<int, 3> end{};    ///< likewise, or the chunk's
+  };
+
+  /// Only those in `box`, and only these blocks are written.
+  void lay_out(std::span<const std::byte> voxels, const Box& box, std::byte* brick) const;
+
   /// How many bytes after a brick's end may be read: a vector's.
   static constexpr std::size_t slack() { return 64; }
 
  private:
+  template <int level_bytes>
+  void lay_out_levels(std::span<const std::byte> voxels, const Box& box, std::byte* brick) const;
+
   std::array<int, 3> shape_;
   int level_bytes_;
   int blocks_x_;

@@ -24,10 +24,12 @@ std::size_t voxels_of(const VolumeLayout& layout) {
 /// Some of the chunks asked for.
 struct Part {
   std::vector<ChunkIndex> chunks;
+  std::vector<ChunkLayers> layers;
   std::vector<std::size_t> places;  // in the order asked for
 
-  void add(ChunkIndex chunk, std::size_t place) {
+  void add(ChunkIndex chunk, ChunkLayers needed, std::size_t place) {
     chunks.push_back(chunk);
+    layers.push_back(needed);
     places.push_back(place);
   }
 };
@@ -60,12 +62,13 @@ VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
       policy_(policy),
       tail_(tail),
       blocks_(volume.layout().chunk, volume.bits()),
+      cells_(volume.layout().chunk),
       pool_(pool != nullptr && pool->block_bytes() == blocks_.brick_bytes()
                 ? *pool
                 : BlockPool(blocks_.brick_bytes(), TexelBlocks::slack())),
       cache_(
           capacity_bytes, blocks_.brick_bytes(),
-          [this](int level, std::span<const ChunkIndex> wanted) { return fetch(level, wanted); }) {}
+          [this](int level, std::span<const BrickFetch> wanted) { return fetch(level, wanted); }) {}
 
 /// Whether all its layers were in the volume when it was opened: such a chunk never changes.
 bool VolumeBricks::is_complete(int level, ChunkIndex index) const {
@@ -73,8 +76,20 @@ bool VolumeBricks::is_complete(int level, ChunkIndex index) const {
          volume_.layers_present();
 }
 
-std::vector<TexelBrick> VolumeBricks::bricks(int level, std::span<const ChunkIndex> wanted) {
-  return cache_.get(level, wanted);
+std::vector<BrickPart> VolumeBricks::parts(std::span<const ChunkIndex> wanted,
+                                           const PlaneReach& plane) const {
+  const CellsNearPlane near(cells_, volume_.layout().chunk, plane);
+  std::vector<BrickPart> parts;
+  parts.reserve(wanted.size());
+  for (const ChunkIndex& index : wanted) {
+    parts.push_back({index, near.of(index)});
+  }
+  return parts;
+}
+
+std::vector<TexelBrick> VolumeBricks::bricks(int level, std::span<const ChunkIndex> wanted,
+                                             const PlaneReach& plane) {
+  return cache_.get(level, parts(wanted, plane));
 }
 
 bool VolumeBricks::in_tail(int level, ChunkIndex index) const {
@@ -82,47 +97,59 @@ bool VolumeBricks::in_tail(int level, ChunkIndex index) const {
 }
 
 // What the tail touches is not announced: it is made of images, not of the volume's chunks.
-void VolumeBricks::expect(int level, std::span<const ChunkIndex> soon) {
-  std::vector<ChunkIndex> missing = cache_.missing(level, soon);
+void VolumeBricks::expect(int level, std::span<const ChunkIndex> soon, const PlaneReach& plane) {
+  std::vector<ChunkIndex> missing = cache_.missing(level, parts(soon, plane));
   std::erase_if(missing, [&](const ChunkIndex& index) { return in_tail(level, index); });
   volume_.expect_chunks(level, missing);
 }
 
-std::vector<TexelBrick> VolumeBricks::fetch(int level, std::span<const ChunkIndex> wanted) {
-  std::vector<TexelBrick> bricks(wanted.size());
-  const auto fetch_from = [&](const auto& source, const Part& part) {
-    const auto keep = [&](std::size_t which, std::span<const std::byte> voxels) {
-      bricks[part.places[which]] = voxels.empty() ? nullptr : brick_of(voxels);
-    };
-    const auto replace = [&](std::size_t which, const SampleError& error) {
-      note_damage(level, part.chunks[which], error.what());
-      bricks[part.places[which]] = damaged_brick();
-    };
-    source.read_chunks(level, part.chunks, keep,
-                       policy_.tolerate ? Volume::OnDamage(replace) : Volume::OnDamage());
-  };
+std::vector<KeptBrick> VolumeBricks::fetch(int level, std::span<const BrickFetch> wanted) {
+  std::vector<KeptBrick> bricks(wanted.size());
   Part stored;
   Part overlaid;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    (in_tail(level, wanted[i]) ? overlaid : stored).add(wanted[i], i);
+    const BrickPart& part = wanted[i].part;
+    (in_tail(level, part.index) ? overlaid : stored)
+        .add(part.index, cells_.layers(part.cells & cells_.all()), i);
   }
-  fetch_from(volume_, stored);
+  const auto keep_in = [&](const Part& part) {
+    return [&](std::size_t which, std::span<const std::byte> voxels) {
+      const std::size_t place = part.places[which];
+      if (!voxels.empty()) {
+        bricks[place] = brick_of(voxels, wanted[place].part.cells, wanted[place].kept);
+      }
+    };
+  };
+  const auto replace_in = [&](const Part& part) {
+    return policy_.tolerate ? Volume::OnDamage([&](std::size_t which, const SampleError& error) {
+      note_damage(level, part.chunks[which], error.what());
+      bricks[part.places[which]] = damaged_brick();
+    })
+                            : Volume::OnDamage();
+  };
+  volume_.read_chunks(level, stored.chunks, keep_in(stored), replace_in(stored), stored.layers);
   if (!overlaid.chunks.empty()) {
-    fetch_from(*tail_, overlaid);
+    tail_->read_chunks(level, overlaid.chunks, keep_in(overlaid), replace_in(overlaid));
   }
   return bricks;
 }
 
-std::shared_ptr<std::byte> VolumeBricks::brick_of(std::span<const std::byte> voxels) {
-  std::shared_ptr<std::byte> brick = pool_.allocate();
-  blocks_.lay_out(voxels, brick.get());
+/// `voxels` has at least the layers of `cells`.
+KeptBrick VolumeBricks::brick_of(std::span<const std::byte> voxels, CellSet cells,
+                                 const KeptBrick& kept) {
+  const KeptBrick brick = kept ? kept : std::make_shared<PartialBrick>(pool_.allocate());
+  brick->add(cells & cells_.all(), [&](CellSet missing, std::byte* texels) {
+    cells_.for_each_box(missing,
+                        [&](const TexelBlocks::Box& box) { blocks_.lay_out(voxels, box, texels); });
+  });
   return brick;
 }
 
-std::shared_ptr<std::byte> VolumeBricks::damaged_brick() {
+KeptBrick VolumeBricks::damaged_brick() {
   const std::size_t voxels = voxels_of(volume_.layout());
   return brick_of(volume_.bits() == 16 ? painted<std::uint16_t>(voxels, policy_.colour)
-                                       : painted<std::uint8_t>(voxels, policy_.colour));
+                                       : painted<std::uint8_t>(voxels, policy_.colour),
+                  cells_.all(), nullptr);
 }
 
 void VolumeBricks::note_damage(int level, const ChunkIndex& chunk, const std::string& what) {

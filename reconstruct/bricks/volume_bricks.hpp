@@ -13,6 +13,7 @@
 
 #include "reconstruct/bricks/block_pool.hpp"
 #include "reconstruct/bricks/brick_cache.hpp"
+#include "reconstruct/bricks/brick_cells.hpp"
 #include "reconstruct/bricks/brick_source.hpp"
 #include "reconstruct/bricks/layer_tail.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
@@ -50,8 +51,9 @@ class VolumeBricks final : public BrickSource {
   int levels() const override { return volume_.levels(); }
   const PyramidLevel& level(int number) const override { return volume_.level(number); }
   std::size_t capacity_bytes() const override { return cache_.capacity_bytes(); }
-  std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted) override;
-  void expect(int level, std::span<const ChunkIndex> soon) override;
+  std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted,
+                                 const PlaneReach& plane) override;
+  void expect(int level, std::span<const ChunkIndex> soon, const PlaneReach& plane) override;
 
   Damage damage() const;
 
@@ -60,15 +62,17 @@ class VolumeBricks final : public BrickSource {
                const LayerTail* tail, const BlockPool* pool);
   bool in_tail(int level, ChunkIndex index) const;
   bool is_complete(int level, ChunkIndex index) const;
-  std::vector<TexelBrick> fetch(int level, std::span<const ChunkIndex> wanted);
-  std::shared_ptr<std::byte> brick_of(std::span<const std::byte> voxels);
-  std::shared_ptr<std::byte> damaged_brick();
+  std::vector<BrickPart> parts(std::span<const ChunkIndex> wanted, const PlaneReach& plane) const;
+  std::vector<KeptBrick> fetch(int level, std::span<const BrickFetch> wanted);
+  KeptBrick brick_of(std::span<const std::byte> voxels, CellSet cells, const KeptBrick& kept);
+  KeptBrick damaged_brick();
   void note_damage(int level, const ChunkIndex& chunk, const std::string& what);
 
   const Volume& volume_;
   DamagePolicy policy_;
   const LayerTail* tail_;
   TexelBlocks blocks_;
+  BrickCells cells_;
   BlockPool pool_;
   BrickCache cache_;
   mutable std::mutex mutex_;

@@ -169,7 +169,7 @@ class PictureSampler {
       rows_ = std::max(rows_ / 2, kLeastStripRows);
     }
     next_row_ = strip->last_row;
-    source_.expect(from.level, strip->indices);
+    source_.expect(from.level, strip->indices, plane_at(from.level));
     return strip;
   }
 
@@ -218,8 +218,10 @@ class PictureSampler {
     return strip;
   }
 
+  PlaneReach plane_at(int level) const { return plane_reach(source_, level, grid_, kind_); }
+
   void fetch(Strip& strip) {
-    strip.bricks = source_.bricks(strip.from.level, strip.indices);
+    strip.bricks = source_.bricks(strip.from.level, strip.indices, plane_at(strip.from.level));
     if (strip.first_row == 0) {
       count_touched();  // of the level before
     }

@@ -53,6 +53,26 @@ Support support_of(Interpolation kind) {
   return {1, 2, 0.0};
 }
 
+// A texel of the support is less than `radius` away, and a position beyond the border, up to half a
+// voxel of a coarser level, may be moved to it.
+PlaneReach plane_reach(const BrickSource& source, int level, const PixelGrid& grid,
+                       Interpolation kind) {
+  constexpr double kBeyondBorder = 0.5;
+  const VoxelRow first = voxel_row(grid, source.level(level), 0);
+  const VoxelRow next = voxel_row(grid, source.level(level), 1);
+  const Support support = support_of(kind);
+  PlaneReach plane;
+  plane.reach = support.shift + support.above + (level > 0 ? kBeyondBorder : 0.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t i = (axis + 1) % 3;
+    const std::size_t j = (axis + 2) % 3;
+    plane.normal[axis] = first.step[i] * (next.start[j] - first.start[j]) -
+                         first.step[j] * (next.start[i] - first.start[i]);
+    plane.offset += plane.normal[axis] * first.start[axis];
+  }
+  return plane;
+}
+
 TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, const Tile& tile,
                    std::span<const PictureRow> rows)
     : tile_(tile),

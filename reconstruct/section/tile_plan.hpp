@@ -34,6 +34,10 @@ struct Support {
 };
 Support support_of(Interpolation kind);
 
+/// What of a level the pixels of `grid` are made of.
+PlaneReach plane_reach(const BrickSource& source, int level, const PixelGrid& grid,
+                       Interpolation kind);
+
 /// A row of the picture among the voxels of a level.
 struct PictureRow {
   int row = 0;

@@ -36,6 +36,13 @@ constexpr int kColours = 3;
 constexpr std::size_t kChecksumBytes = 4;
 constexpr int kLz4Level = 5;
 constexpr int kZstdLevel = 1;
+constexpr const char* kUndecodable = "Blosc cannot decompress it";
+
+// What Blosc is told where it does not shuffle, for which the size of a value means nothing else:
+// LZ4's blocks are as small as they are asked for only when values are too large to be split into
+// streams of bytes (above 16). A divisor of a row of voxels' bytes wherever its length is a
+// multiple of 8.
+constexpr std::size_t kUnsplitValueBytes = 24;
 
 constexpr std::array kCompressors{
     Compressor{.name = "raw"},
@@ -98,6 +105,16 @@ void planar_to_interleaved(std::span<const std::byte> planes, std::span<std::byt
   cv::merge(in.data(), in.size(), out);
 }
 
+}  // namespace
+
+/// What a Blosc buffer says of itself.
+struct BloscHeader {
+  std::size_t value_bytes = 0;  ///< above 0
+  bool is_plain = false;        ///< holds what it was made of as it was, as its last bytes
+};
+
+namespace {
+
 /// Whether the header of a valid Blosc buffer names this compressor. Blosc would meet another one
 /// that it lacks with a line on stderr, and one that it has with a chunk that no writer of ours
 /// made.
@@ -106,6 +123,35 @@ bool is_made_by(std::string_view compressor, std::span<const std::byte> encoded)
   return library != nullptr &&
          library == std::string_view(compressor == BLOSC_LZ4_COMPNAME ? BLOSC_LZ4_LIBNAME
                                                                       : BLOSC_ZSTD_LIBNAME);
+}
+
+/// Throws SampleError unless `encoded` is a buffer of this compressor that says that it is made of
+/// `plain_bytes`.
+BloscHeader blosc_header(std::span<const std::byte> encoded, const Compressor& compressor,
+                         std::size_t plain_bytes) {
+  std::size_t size = 0;
+  BloscHeader header;
+  int flags = 0;
+  const bool is_valid = blosc_cbuffer_validate(encoded.data(), encoded.size(), &size) == 0 &&
+                        size == plain_bytes && is_made_by(compressor.blosc_compressor, encoded);
+  if (is_valid) {
+    blosc_cbuffer_metainfo(encoded.data(), &header.value_bytes, &flags);
+    header.is_plain = (flags & BLOSC_MEMCPYED) != 0;
+  }
+  if (!is_valid || header.value_bytes == 0 ||
+      (header.is_plain && encoded.size() != plain_bytes + BLOSC_MIN_HEADER_LENGTH)) {
+    throw SampleError(kUndecodable);
+  }
+  return header;
+}
+
+/// Bytes of a block of a chunk that Blosc compresses; 0 lets it choose.
+std::size_t block_bytes(const VolumeLayout& layout, int value_bytes) {
+  return layout.interleaved ? static_cast<std::size_t>(layers_of_a_block(layout.chunk[0])) *
+                                  static_cast<std::size_t>(layout.chunk[1]) *
+                                  static_cast<std::size_t>(layout.chunk[2]) * kColours *
+                                  static_cast<std::size_t>(value_bytes)
+                            : 0;
 }
 
 void append_checksum(Bytes& encoded) {
@@ -162,7 +208,7 @@ nlohmann::json codec_chain(const VolumeLayout& layout, int bits) {
                          {"clevel", compressor.level},
                          {"shuffle", shuffle_name(compressor.blosc_shuffle)},
                          {"typesize", bits / 8},
-                         {"blocksize", 0}}}});
+                         {"blocksize", block_bytes(layout, bits / 8)}}}});
       break;
     case Compressor::Kind::zstd:
       chain.push_back({{"name", "zstd"},
@@ -176,10 +222,12 @@ nlohmann::json codec_chain(const VolumeLayout& layout, int bits) {
 ChunkCodec::ChunkCodec(const VolumeLayout& layout, int bits)
     : compressor_(compressor_named(layout.codec)),
       interleaved_(layout.interleaved),
+      layers_(static_cast<std::size_t>(layout.chunk[0])),
       voxels_(static_cast<std::size_t>(layout.chunk[0]) *
               static_cast<std::size_t>(layout.chunk[1]) *
               static_cast<std::size_t>(layout.chunk[2])),
-      value_bytes_(static_cast<std::size_t>(bits) / 8) {}
+      value_bytes_(static_cast<std::size_t>(bits) / 8),
+      block_bytes_(block_bytes(layout, bits / 8)) {}
 
 Bytes ChunkCodec::encode(std::span<const std::byte> voxels) const {
   Bytes encoded;
@@ -195,7 +243,10 @@ Bytes ChunkCodec::encode(std::span<const std::byte> voxels) const {
 }
 
 void ChunkCodec::decode(std::span<const std::byte> encoded, std::span<std::byte> voxels) const {
-  const std::span<const std::byte> body = without_checksum(encoded);
+  decode_body(without_checksum(encoded), voxels);
+}
+
+void ChunkCodec::decode_body(std::span<const std::byte> body, std::span<std::byte> voxels) const {
   if (interleaved_) {
     decompress(body, voxels);
   } else {
@@ -205,15 +256,51 @@ void ChunkCodec::decode(std::span<const std::byte> encoded, std::span<std::byte>
   }
 }
 
+std::span<const std::byte> ChunkCodec::decode_layers(std::span<const std::byte> encoded,
+                                                     ChunkLayers layers,
+                                                     std::span<std::byte> room) const {
+  const std::span<const std::byte> body = without_checksum(encoded);
+  if (interleaved_ && compressor_.kind == Compressor::Kind::none && body.size() == room.size()) {
+    return body;
+  }
+  if (interleaved_ && compressor_.kind == Compressor::Kind::blosc) {
+    const BloscHeader header = blosc_header(body, compressor_, room.size());
+    if (header.is_plain) {
+      return body.last(room.size());
+    }
+    if (decompress_layers(body, header, layers, room)) {
+      return room;
+    }
+  }
+  decode_body(body, room);
+  return room;
+}
+
+/// False where that can't be done, or is all of the chunk.
+bool ChunkCodec::decompress_layers(std::span<const std::byte> body, const BloscHeader& header,
+                                   ChunkLayers layers, std::span<std::byte> room) const {
+  const std::size_t layer_bytes = room.size() / layers_;
+  const std::size_t first = static_cast<std::size_t>(layers.first) * layer_bytes;
+  const std::size_t bytes = static_cast<std::size_t>(layers.end - layers.first) * layer_bytes;
+  if (bytes == room.size() || first % header.value_bytes != 0 || bytes % header.value_bytes != 0) {
+    return false;
+  }
+  return blosc_getitem(body.data(), static_cast<int>(first / header.value_bytes),
+                       static_cast<int>(bytes / header.value_bytes),
+                       room.data() + first) == static_cast<int>(bytes);
+}
+
 Bytes ChunkCodec::compress(std::span<const std::byte> plain) const {
   switch (compressor_.kind) {
     case Compressor::Kind::none:
       break;
     case Compressor::Kind::blosc: {
       Bytes encoded(plain.size() + BLOSC_MAX_OVERHEAD);
-      const int size = blosc_compress_ctx(compressor_.level, compressor_.blosc_shuffle,
-                                          value_bytes_, plain.size(), plain.data(), encoded.data(),
-                                          encoded.size(), compressor_.blosc_compressor, 0, 1);
+      const int size = blosc_compress_ctx(
+          compressor_.level, compressor_.blosc_shuffle,
+          compressor_.blosc_shuffle == BLOSC_NOSHUFFLE ? kUnsplitValueBytes : value_bytes_,
+          plain.size(), plain.data(), encoded.data(), encoded.size(), compressor_.blosc_compressor,
+          block_bytes_, 1);
       if (size <= 0) {
         throw SampleError(std::string("Blosc cannot compress a chunk with ") + compressor_.name);
       }
@@ -242,16 +329,13 @@ void ChunkCodec::decompress(std::span<const std::byte> encoded, std::span<std::b
       }
       std::memcpy(plain.data(), encoded.data(), plain.size());
       return;
-    case Compressor::Kind::blosc: {
-      std::size_t size = 0;
-      if (blosc_cbuffer_validate(encoded.data(), encoded.size(), &size) != 0 ||
-          size != plain.size() || !is_made_by(compressor_.blosc_compressor, encoded) ||
-          blosc_decompress_ctx(encoded.data(), plain.data(), plain.size(), 1) !=
-              static_cast<int>(plain.size())) {
-        throw SampleError("Blosc cannot decompress it");
+    case Compressor::Kind::blosc:
+      blosc_header(encoded, compressor_, plain.size());
+      if (blosc_decompress_ctx(encoded.data(), plain.data(), plain.size(), 1) !=
+          static_cast<int>(plain.size())) {
+        throw SampleError(kUndecodable);
       }
       return;
-    }
     case Compressor::Kind::zstd:
       if (ZSTD_decompress(plain.data(), plain.size(), encoded.data(), encoded.size()) !=
           plain.size()) {

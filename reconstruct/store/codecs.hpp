@@ -12,6 +12,7 @@
 namespace biotomy::reconstruct {
 
 struct Compressor;
+struct BloscHeader;
 
 /// The names that a VolumeLayout's `codec` can have: `raw`, `zstd1`, `blosc-lz4-bitshuffle` and
 /// their like. Blosc shuffles single colour values: with whole voxels for elements (typesize 3) it
@@ -26,6 +27,12 @@ void check_codec_name(const std::string& name);
 /// is dimension order[i] of the array c, z, y, x (Zarr v3, codec "transpose" 1.0), so that a
 /// voxel's colours lie side by side.
 nlohmann::json codec_chain(const VolumeLayout& layout, int bits);
+
+/// Layers of a chunk, from `first` to before `end`, counted within it.
+struct ChunkLayers {
+  int first = 0;
+  int end = 0;
+};
 
 /// Encodes and decodes inner chunks. Safe for many threads.
 class ChunkCodec {
@@ -46,17 +53,27 @@ class ChunkCodec {
   /// its message, when `encoded` is damaged.
   void decode(std::span<const std::byte> encoded, std::span<std::byte> voxels) const;
 
+  /// Likewise, where only some layers are needed: the voxels of others may mean nothing. The chunk
+  /// lies in `room`, which has chunk_bytes(), or in `encoded`, if that holds it uncompressed.
+  std::span<const std::byte> decode_layers(std::span<const std::byte> encoded, ChunkLayers layers,
+                                           std::span<std::byte> room) const;
+
  private:
   static constexpr std::size_t kColours = 3;
   static constexpr std::size_t kLeastEncoded = 1024;  // headers and checksums of tiny chunks
 
+  void decode_body(std::span<const std::byte> body, std::span<std::byte> voxels) const;
+  bool decompress_layers(std::span<const std::byte> body, const BloscHeader& header,
+                         ChunkLayers layers, std::span<std::byte> room) const;
   std::vector<std::byte> compress(std::span<const std::byte> plain) const;
   void decompress(std::span<const std::byte> encoded, std::span<std::byte> plain) const;
 
   const Compressor& compressor_;
   bool interleaved_;
+  std::size_t layers_;
   std::size_t voxels_;
   std::size_t value_bytes_;
+  std::size_t block_bytes_;
 };
 
 }  // namespace biotomy::reconstruct

@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kIndexCacheBytes = std::size_t{64} << 20;
-constexpr std::uint64_t kLongestRun = std::uint64_t{1} << 20;  // bytes read and decoded by one task
+constexpr std::uint64_t kLongestRun = std::uint64_t{1} << 18;  // bytes read and decoded by one task
 constexpr BlockCount kNoShard{-1, -1, -1};
 constexpr int kMostReplacements = 3;  // of one shard within one read: a writer is not that quick
 
@@ -78,6 +78,22 @@ std::vector<Run> runs_of(std::vector<Piece>& pieces) {
   }
   return runs;
 }
+
+/// Memory that is used again, and not cleared.
+class Scratch {
+ public:
+  std::span<std::byte> bytes(std::size_t count) {
+    if (count > size_) {
+      memory_ = std::make_unique_for_overwrite<std::byte[]>(count);
+      size_ = count;
+    }
+    return {memory_.get(), count};
+  }
+
+ private:
+  std::unique_ptr<std::byte[]> memory_;
+  std::size_t size_ = 0;
+};
 
 std::vector<PyramidLevel> levels_of(const Cuboid& cuboid, const std::vector<LevelFactor>& factors) {
   std::vector<PyramidLevel> levels;
@@ -193,19 +209,24 @@ struct Volume::State {
                       ": keeps changing while it is read");
   }
 
-  void decode(const std::string& name, ChunkIndex chunk, std::span<const std::byte> encoded,
-              std::span<std::byte> voxels) {
+  /// As ChunkCodec::decode_layers.
+  std::span<const std::byte> decode(const std::string& name, ChunkIndex chunk,
+                                    std::span<const std::byte> encoded, ChunkLayers layers,
+                                    std::span<std::byte> room) {
     const auto start = Clock::now();
     try {
-      codec.decode(encoded, voxels);
+      const std::span<const std::byte> voxels = codec.decode_layers(encoded, layers, room);
+      statistics.decode_ns += nanoseconds_since(start);
+      ++statistics.chunks_read;
+      return voxels;
     } catch (const SampleError& error) {
       throw SampleError(objects->describe(name) + ": the chunk z " + std::to_string(chunk.z) +
                         ", y " + std::to_string(chunk.y) + ", x " + std::to_string(chunk.x) +
                         " is damaged: " + error.what());
     }
-    statistics.decode_ns += nanoseconds_since(start);
-    ++statistics.chunks_read;
   }
+
+  ChunkLayers all_layers() const { return {0, array.layout.chunk[0]}; }
 
   /// How many shards lie before a chunk's along each axis.
   BlockCount shard_of(ChunkIndex chunk) const {
@@ -344,9 +365,11 @@ std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chun
     std::vector<std::byte> encoded(range.length);
     try {
       state_->read(name, shard->version, range.offset, encoded);
-      auto voxels = std::make_shared<ChunkVoxels>(state_->codec.chunk_bytes());
-      state_->decode(name, chunk, encoded, *voxels);
-      return voxels;
+      ChunkVoxels room(state_->codec.chunk_bytes());
+      const auto voxels = state_->decode(name, chunk, encoded, state_->all_layers(), room);
+      return std::make_shared<ChunkVoxels>(voxels.data() == room.data()
+                                               ? std::move(room)
+                                               : ChunkVoxels(voxels.begin(), voxels.end()));
     } catch (const ObjectReplaced&) {
       shard = state_->fresh_shard(level, chunk);
     }
@@ -358,7 +381,7 @@ std::shared_ptr<const ChunkVoxels> Volume::read_chunk(int level, ChunkIndex chun
 }
 
 void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const OnChunk& on_chunk,
-                         const OnDamage& on_damage) const {
+                         const OnDamage& on_damage, std::span<const ChunkLayers> layers) const {
   const auto fail = [&](std::size_t which, const SampleError& error) {
     if (!on_damage) {
       throw SampleError(error);
@@ -375,10 +398,10 @@ void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const On
     }
   };
   const auto read_run = [&](Run run) {
-    thread_local std::vector<std::byte> encoded;
-    thread_local std::vector<std::byte> voxels;
-    encoded.resize(bytes_of(run));
-    voxels.resize(state_->codec.chunk_bytes());
+    thread_local Scratch encoded_memory;
+    thread_local Scratch voxel_memory;
+    const std::span<std::byte> encoded = encoded_memory.bytes(bytes_of(run));
+    const std::span<std::byte> room = voxel_memory.bytes(state_->codec.chunk_bytes());
     const IndexedShard& shard = *run.front().shard;
     try {
       state_->read(shard.name, shard.version, run.front().range.offset, encoded);
@@ -387,11 +410,12 @@ void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const On
       return;
     }
     for (const Piece& piece : run) {
+      std::span<const std::byte> voxels;
       try {
-        state_->decode(shard.name, wanted[piece.which],
-                       std::span(encoded).subspan(piece.range.offset - run.front().range.offset,
-                                                  piece.range.length),
-                       voxels);
+        voxels = state_->decode(
+            shard.name, wanted[piece.which],
+            encoded.subspan(piece.range.offset - run.front().range.offset, piece.range.length),
+            layers.empty() ? state_->all_layers() : layers[piece.which], room);
       } catch (const SampleError& error) {
         fail(piece.which, error);
         continue;

@@ -12,6 +12,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/cuboid.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/store/codecs.hpp"
 #include "reconstruct/store/object_reader.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/volume_layout.hpp"
@@ -74,9 +75,10 @@ class Volume {
 
   /// Reads and decodes many chunks of a level, each index once. What lies side by side in a shard
   /// is read at once; chunks are decoded, and both functions called, on many threads and in any
-  /// order. A chunk that is damaged goes to `on_damage`, or, without one, is thrown.
+  /// order. A chunk that is damaged goes to `on_damage`, or, without one, is thrown. Of a chunk
+  /// that has `layers`, only these are sure to be decoded.
   void read_chunks(int level, std::span<const ChunkIndex> wanted, const OnChunk& on_chunk,
-                   const OnDamage& on_damage = {}) const;
+                   const OnDamage& on_damage = {}, std::span<const ChunkLayers> layers = {}) const;
 
   /// These will be read soon: their bytes may be fetched from the disk meanwhile. Returns at once.
   void expect_chunks(int level, std::span<const ChunkIndex> soon) const;

@@ -17,6 +17,14 @@ struct VolumeLayout {
   friend bool operator==(const VolumeLayout&, const VolumeLayout&) = default;
 };
 
+/// Blosc compresses a chunk whose colours are interleaved in four blocks of whole layers, each by
+/// itself, so that who needs some layers need not decode them all. So many layers has each but the
+/// last, of a chunk of `layers`.
+constexpr int layers_of_a_block(int layers) {
+  constexpr int kBlocks = 4;
+  return (layers + kBlocks - 1) / kBlocks;
+}
+
 /// Throws InvalidRequest when chunk and shard do not fit each other or the codec is not known.
 void check_layout(const VolumeLayout& layout);
 

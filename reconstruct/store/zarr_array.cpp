@@ -75,6 +75,28 @@ json with_endian(json codecs) {
   return codecs;
 }
 
+/// The size of Blosc's blocks is a matter of the encoder: each buffer says its own.
+json without_block_size(json codecs) {
+  for (json& codec : codecs) {
+    if (codec.is_object() && codec.value("name", json()) == "blosc" &&
+        codec.value("configuration", json()).is_object()) {
+      codec["configuration"].erase("blocksize");
+    }
+  }
+  return codecs;
+}
+
+json& codecs_of_a_chunk(json& metadata) {
+  return metadata.at("codecs").at(0).at("configuration").at("codecs");
+}
+
+/// What tells arrays apart to a reader.
+json as_read(json metadata) {
+  json& codecs = codecs_of_a_chunk(metadata);
+  codecs = without_block_size(std::move(codecs));
+  return metadata;
+}
+
 /// The same array as we write it: without what other programs leave in metadata that they have
 /// rewritten, to which nothing of what we read would be different.
 json without_harmless_additions(json metadata, int bits) {
@@ -84,10 +106,10 @@ json without_harmless_additions(json metadata, int bits) {
     metadata.erase(transformers);
   }
   if (bits == 8) {
-    json& codecs = metadata.at("codecs").at(0).at("configuration").at("codecs");
+    json& codecs = codecs_of_a_chunk(metadata);
     codecs = with_endian(std::move(codecs));
   }
-  return metadata;
+  return as_read(std::move(metadata));
 }
 
 ZarrArray from_json(const json& found) {
@@ -110,9 +132,9 @@ ZarrArray from_json(const json& found) {
     for (const std::string& name : codec_names()) {
       array.layout.interleaved = interleaved;
       array.layout.codec = name;
-      if (codec_chain(array.layout, array.bits) == sharding.at("codecs")) {
+      if (without_block_size(codec_chain(array.layout, array.bits)) == sharding.at("codecs")) {
         check_layout(array.layout);
-        if (to_json(array) != metadata) {
+        if (as_read(to_json(array)) != metadata) {
           throw SampleError("it is not an array as Biotomy writes them");
         }
         return array;

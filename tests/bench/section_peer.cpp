@@ -59,9 +59,10 @@ class BricksInMemory final : public BrickSource {
   int levels() const override { return 1; }
   const PyramidLevel& level(int) const override { return level_; }
   std::size_t capacity_bytes() const override { return std::size_t{1} << 40; }
-  void expect(int, std::span<const ChunkIndex>) override {}
+  void expect(int, std::span<const ChunkIndex>, const PlaneReach&) override {}
 
-  std::vector<TexelBrick> bricks(int, std::span<const ChunkIndex> wanted) override {
+  std::vector<TexelBrick> bricks(int, std::span<const ChunkIndex> wanted,
+                                 const PlaneReach&) override {
     std::vector<TexelBrick> result;
     result.reserve(wanted.size());
     for (const ChunkIndex& index : wanted) {

@@ -1,6 +1,9 @@
 #include "reconstruct/bricks/brick_cache.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -15,32 +18,54 @@ using testing::IsEmpty;
 
 constexpr std::size_t kBrickBytes = 1000;
 
-/// What the cache fetches from: bricks that are told apart by their first byte, the x of the index.
+/// The brick with the cells that are missing in it: its first byte is the x of its index.
+KeptBrick made_for(const BrickFetch& wanted) {
+  if (wanted.part.index.y == 9) {
+    return nullptr;
+  }
+  const KeptBrick brick = wanted.kept ? wanted.kept
+                                      : std::make_shared<PartialBrick>(std::make_shared<std::byte>(
+                                            static_cast<std::byte>(wanted.part.index.x)));
+  brick->add(wanted.part.cells, [](CellSet, std::byte*) {});
+  return brick;
+}
+
+/// What the cache fetches from.
 struct Shelf {
   std::vector<std::vector<ChunkIndex>> fetches;
+  std::vector<CellSet> cells;  ///< of all fetches' bricks
   bool broken = false;
 
-  std::vector<TexelBrick> fetch(std::span<const ChunkIndex> wanted) {
-    fetches.emplace_back(wanted.begin(), wanted.end());
+  std::vector<KeptBrick> fetch(std::span<const BrickFetch> wanted) {
+    fetches.emplace_back();
+    for (const BrickFetch& each : wanted) {
+      fetches.back().push_back(each.part.index);
+      cells.push_back(each.part.cells);
+    }
     if (broken) {
       throw std::runtime_error("the shelf is broken");
     }
-    std::vector<TexelBrick> bricks;
-    for (const ChunkIndex& index : wanted) {
-      bricks.push_back(index.y == 9 ? nullptr
-                                    : std::make_shared<std::byte>(static_cast<std::byte>(index.x)));
-    }
+    std::vector<KeptBrick> bricks;
+    std::transform(wanted.begin(), wanted.end(), std::back_inserter(bricks), made_for);
     return bricks;
   }
 
   BrickCache::Fetch function() {
-    return [this](int, std::span<const ChunkIndex> wanted) { return fetch(wanted); };
+    return [this](int, std::span<const BrickFetch> wanted) { return fetch(wanted); };
   }
 };
 
-std::vector<TexelBrick> get(BrickCache& cache, const std::vector<ChunkIndex>& wanted,
-                            int level = 0) {
-  return cache.get(level, wanted);
+std::vector<BrickPart> parts(const std::vector<ChunkIndex>& wanted, CellSet cells) {
+  std::vector<BrickPart> result;
+  for (const ChunkIndex& index : wanted) {
+    result.push_back({index, cells});
+  }
+  return result;
+}
+
+std::vector<TexelBrick> get(BrickCache& cache, const std::vector<ChunkIndex>& wanted, int level = 0,
+                            CellSet cells = 1) {
+  return cache.get(level, parts(wanted, cells));
 }
 
 TEST(BricksInACache, AreFetchedTogetherAndOnce) {
@@ -87,9 +112,9 @@ TEST(BricksInACache, AreMissingUntilTheyWereFetched) {
   BrickCache cache(10 * kBrickBytes, kBrickBytes, shelf.function());
   get(cache, {{0, 0, 1}});
   const std::vector<ChunkIndex> both{{0, 0, 1}, {0, 0, 2}};
-  EXPECT_THAT(cache.missing(0, both), ElementsAre(ChunkIndex{0, 0, 2}));
+  EXPECT_THAT(cache.missing(0, parts(both, 1)), ElementsAre(ChunkIndex{0, 0, 2}));
   get(cache, both);
-  EXPECT_THAT(cache.missing(0, both), IsEmpty());
+  EXPECT_THAT(cache.missing(0, parts(both, 1)), IsEmpty());
 }
 
 TEST(BricksInACache, AreAskedForAgainAfterAFailure) {
@@ -103,12 +128,10 @@ TEST(BricksInACache, AreAskedForAgainAfterAFailure) {
 
 TEST(BricksInACache, AreFetchedOnceForManyThreads) {
   std::atomic<int> fetched = 0;
-  BrickCache cache(1000 * kBrickBytes, kBrickBytes, [&](int, std::span<const ChunkIndex> wanted) {
+  BrickCache cache(1000 * kBrickBytes, kBrickBytes, [&](int, std::span<const BrickFetch> wanted) {
     fetched += static_cast<int>(wanted.size());
-    std::vector<TexelBrick> bricks;
-    for (const ChunkIndex& index : wanted) {
-      bricks.push_back(std::make_shared<std::byte>(static_cast<std::byte>(index.x)));
-    }
+    std::vector<KeptBrick> bricks;
+    std::transform(wanted.begin(), wanted.end(), std::back_inserter(bricks), made_for);
     return bricks;
   });
   std::atomic<int> wrong = 0;
@@ -126,6 +149,53 @@ TEST(BricksInACache, AreFetchedOnceForManyThreads) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(fetched, 100);
+}
+
+TEST(BricksInACache, AreFetchedWithTheCellsAskedForAndOnceMoreWithAll) {
+  Shelf shelf;
+  BrickCache cache(10 * kBrickBytes, kBrickBytes, shelf.function());
+  const auto first = get(cache, {{0, 0, 1}}, 0, 0b0110);
+  EXPECT_EQ(get(cache, {{0, 0, 1}}, 0, 0b0010), first);
+  EXPECT_THAT(cache.missing(0, parts({{0, 0, 1}}, 0b1000)), ElementsAre(ChunkIndex{0, 0, 1}));
+  EXPECT_EQ(get(cache, {{0, 0, 1}}, 0, 0b1000), first) << "added to the same brick";
+  EXPECT_EQ(get(cache, {{0, 0, 1}}, 0, 0b10001), first);
+  EXPECT_THAT(shelf.cells, ElementsAre(0b0110, ~CellSet{0}));
+}
+
+TEST(BricksInACache, HaveEachThreadsCells) {
+  std::atomic<int> fetched = 0;
+  BrickCache cache(1000 * kBrickBytes, kBrickBytes, [&](int, std::span<const BrickFetch> wanted) {
+    fetched += static_cast<int>(wanted.size());
+    std::vector<KeptBrick> bricks;
+    for (const BrickFetch& each : wanted) {
+      const KeptBrick brick = each.kept
+                                  ? each.kept
+                                  : std::make_shared<PartialBrick>(std::shared_ptr<std::byte>(
+                                        new std::byte[4](), std::default_delete<std::byte[]>()));
+      brick->add(each.part.cells & 0xF, [](CellSet missing, std::byte* texels) {
+        for (int cell = 0; cell < 4; ++cell) {
+          texels[cell] |= static_cast<std::byte>(missing >> cell & 1U);
+        }
+      });
+      bricks.push_back(brick);
+    }
+    return bricks;
+  });
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 4; ++thread) {
+    threads.emplace_back([&, thread] {
+      for (int x = 0; x < 200; ++x) {
+        const auto bricks = get(cache, {{0, 0, x}}, 0, CellSet{1} << thread);
+        wrong += bricks[0].get()[thread] == std::byte{1} ? 0 : 1;
+      }
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_LE(fetched, 400) << "of each brick the cells of the first, then all";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/bricks/block_pool.hpp"
+#include "reconstruct/bricks/brick_cells.hpp"
 #include "reconstruct/bricks/brick_source.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/store/pyramid.hpp"
@@ -46,13 +47,18 @@ struct MemorySource final : reconstruct::BrickSource {
     return all_levels().at(static_cast<std::size_t>(number));
   }
   std::size_t capacity_bytes() const override { return capacity; }
-  void expect(int /*level*/, std::span<const reconstruct::ChunkIndex> /*soon*/) override {}
+  void expect(int /*level*/, std::span<const reconstruct::ChunkIndex> /*soon*/,
+              const reconstruct::PlaneReach& /*plane*/) override {}
 
-  std::vector<reconstruct::TexelBrick> bricks(
-      int level, std::span<const reconstruct::ChunkIndex> wanted) override {
+  /// Texels that are not near the plane are what must never be seen.
+  std::vector<reconstruct::TexelBrick> bricks(int level,
+                                              std::span<const reconstruct::ChunkIndex> wanted,
+                                              const reconstruct::PlaneReach& plane) override {
+    const reconstruct::BrickCells cells(chunk_size);
+    const reconstruct::CellsNearPlane near(cells, chunk_size, plane);
     std::vector<reconstruct::TexelBrick> result;
     for (const reconstruct::ChunkIndex& index : wanted) {
-      result.push_back(brick(level, index));
+      result.push_back(brick(level, index, cells, near.of(index)));
     }
     return result;
   }
@@ -118,7 +124,8 @@ struct MemorySource final : reconstruct::BrickSource {
     return bit_count == 8 ? layer.at<cv::Vec3b>(y, x)[c] : layer.at<cv::Vec3w>(y, x)[c];
   }
 
-  reconstruct::TexelBrick brick(int number, const reconstruct::ChunkIndex& index) {
+  reconstruct::TexelBrick brick(int number, const reconstruct::ChunkIndex& index,
+                                const reconstruct::BrickCells& cells, reconstruct::CellSet near) {
     const std::scoped_lock lock(mutex_);
     asked.insert(index);
     if (broken) {
@@ -139,7 +146,8 @@ struct MemorySource final : reconstruct::BrickSource {
     const reconstruct::TexelBlocks blocks(chunk_size, bit_count);
     auto texels =
         reconstruct::BlockPool(blocks.brick_bytes(), reconstruct::TexelBlocks::slack()).allocate();
-    blocks.lay_out(voxels, texels.get());
+    std::fill_n(texels.get(), blocks.brick_bytes(), std::byte{0xA5});
+    cells.for_each_box(near, [&](const auto& part) { blocks.lay_out(voxels, part, texels.get()); });
     return texels;
   }
 

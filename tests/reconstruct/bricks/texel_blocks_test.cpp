@@ -51,8 +51,58 @@ std::vector<std::byte> brick_of(const Chunk& chunk, const TexelBlocks& blocks) {
   return brick;
 }
 
+/// Blocks of texels of a chunk, one after the other.
+std::vector<TexelBlocks::Box> boxes_of_blocks(const std::array<int, 3>& shape) {
+  std::vector<TexelBlocks::Box> boxes;
+  for (int z = 0; z < shape[0]; ++z) {
+    for (int y = 0; y < shape[1]; y += TexelBlocks::kSide) {
+      for (int x = 0; x < shape[2]; x += TexelBlocks::kSide) {
+        boxes.push_back({{x, y, z},
+                         {std::min(x + TexelBlocks::kSide, shape[2]),
+                          std::min(y + TexelBlocks::kSide, shape[1]), z + 1}});
+      }
+    }
+  }
+  return boxes;
+}
+
 bool same_texel(const std::byte* a, const std::byte* b, const TexelBlocks& blocks) {
   return std::memcmp(a, b, static_cast<std::size_t>(blocks.texel_bytes())) == 0;
+}
+
+TEST(TexelBlocks, LaidOutOneByOneInAnyOrderAreTheBrick) {
+  for (const int bits : {8, 16}) {
+    for (const auto& shape : shapes()) {
+      const TexelBlocks blocks(shape, bits);
+      const Chunk chunk(shape, bits);
+      std::vector<TexelBlocks::Box> boxes = boxes_of_blocks(shape);
+      std::reverse(boxes.begin(), boxes.end());
+      std::vector<std::byte> brick(blocks.brick_bytes(), kUntouched);
+      std::size_t touched = 0;
+      for (const TexelBlocks::Box& box : boxes) {
+        const std::vector<std::byte> before = brick;
+        blocks.lay_out({chunk.voxels.get(), chunk.size}, box, brick.data());
+        const std::byte* const own = brick.data() + blocks.along_x(box.first[0]) +
+                                     blocks.along_y(box.first[1]) + blocks.along_z(box.first[2]);
+        for (std::size_t i = 0; i < brick.size(); ++i) {
+          const std::ptrdiff_t place = brick.data() + i - own;
+          const bool is_own = place >= 0 && place < blocks.block_bytes();
+          ASSERT_TRUE(is_own || brick[i] == before[i]) << "wrote beyond the block";
+          touched += brick[i] != before[i] ? 1 : 0;
+        }
+      }
+      EXPECT_GT(touched, 0U);
+      const std::vector<std::byte> whole = brick_of(chunk, blocks);
+      for (int z = 0; z < shape[0]; ++z) {
+        for (int y = 0; y < shape[1]; ++y) {
+          for (int x = 0; x < shape[2]; ++x) {
+            const int place = blocks.along_x(x) + blocks.along_y(y) + blocks.along_z(z);
+            ASSERT_TRUE(same_texel(brick.data() + place, whole.data() + place, blocks));
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(TexelBlocks, PutEachVoxelWhereItsCoordinatesSay) {

@@ -26,6 +26,7 @@ using tests::TemporaryFolder;
 constexpr int kLayers = 12;
 constexpr int kStoredLayers = 8;  // the rest was never written
 const cv::Size kLayerSize{64, 40};
+constexpr PlaneReach kAllOfIt{};                 // a plane that everything is near
 constexpr std::size_t kIndexBytes = 8 * 16 + 4;  // of a shard of 8 chunks
 
 cv::Mat layer_image(int layer, int bits) {
@@ -130,7 +131,23 @@ TEST_P(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
     EXPECT_EQ(cv::norm(section.image, wanted, cv::NORM_INF), 0.0) << layer;
     EXPECT_EQ(section.statistics.chunks_touched, 12);
   }
-  EXPECT_EQ(volume.statistics().chunks_read, 12);
+  // Each chunk twice, as what the second section needs was left out for the first; then no more.
+  EXPECT_EQ(volume.statistics().chunks_read, 24);
+}
+
+TEST_P(VolumeAsBricks, AreReadASecondTimeForAnotherPlaneAndThenNoMore) {
+  const Volume volume = open();
+  VolumeBricks source(volume, 10'000'000);
+  const auto chunks_read_for = [&](double layer) {
+    const std::int64_t before = volume.statistics().chunks_read;
+    source.bricks(0, run_, {{0.0, 0.0, 1.0}, layer, 0.5});
+    return volume.statistics().chunks_read - before;
+  };
+  EXPECT_EQ(chunks_read_for(2.0), 5);
+  EXPECT_EQ(chunks_read_for(3.0), 0) << "in the same cells";
+  EXPECT_EQ(chunks_read_for(5.0), 5);
+  EXPECT_EQ(chunks_read_for(2.0), 0);
+  EXPECT_EQ(chunks_read_for(7.0), 0) << "the second time all cells were read";
 }
 
 TEST_P(VolumeAsBricks, KeepsWhatFitsAndReadsTheRestAgain) {
@@ -140,7 +157,7 @@ TEST_P(VolumeAsBricks, KeepsWhatFitsAndReadsTheRestAgain) {
   EXPECT_EQ(source.capacity_bytes(), 2 * brick_bytes);
   const auto chunks_read_by = [&](const std::vector<ChunkIndex>& wanted) {
     const std::int64_t before = volume.statistics().chunks_read;
-    source.bricks(0, wanted);
+    source.bricks(0, wanted, kAllOfIt);
     return volume.statistics().chunks_read - before;
   };
   EXPECT_EQ(chunks_read_by({run_[0], run_[1]}), 2);
@@ -154,7 +171,7 @@ TEST_P(VolumeAsBricks, OfFillValueAreNull) {
   const Volume volume = open();
   VolumeBricks source(volume, 1'000'000);
   const std::vector<ChunkIndex> wanted{{1, 0, 0}, {0, 0, 0}};
-  const std::vector<TexelBrick> bricks = source.bricks(0, wanted);
+  const std::vector<TexelBrick> bricks = source.bricks(0, wanted, kAllOfIt);
   EXPECT_EQ(bricks[0], nullptr);
   EXPECT_NE(bricks[1], nullptr);
 }
@@ -163,11 +180,11 @@ TEST_P(VolumeAsBricks, ExpectsOnlyWhatItDoesNotHave) {
   const auto record = std::make_shared<WatchedReader::Record>();
   const Volume volume = Volume::open(std::make_unique<WatchedReader>(path_, record, 64));
   VolumeBricks source(volume, 10'000'000);
-  source.bricks(0, run_);
-  source.expect(0, run_);
+  source.bricks(0, run_, kAllOfIt);
+  source.expect(0, run_, kAllOfIt);
   EXPECT_TRUE(record->expected.empty());
   const std::vector<ChunkIndex> two{run_[0], {0, 2, 0}};
-  source.expect(0, two);
+  source.expect(0, two, kAllOfIt);
   EXPECT_EQ(record->expected.size(), 1U);
 }
 
@@ -175,22 +192,22 @@ TEST_P(VolumeAsBricks, ThrowsWhatIsDamagedAndNamesTheShard) {
   damage(2);
   const Volume volume = open();
   VolumeBricks source(volume, 10'000'000);
-  EXPECT_THAT(message_of<SampleError>([&] { source.bricks(0, run_); }),
+  EXPECT_THAT(message_of<SampleError>([&] { source.bricks(0, run_, kAllOfIt); }),
               AllOf(StartsWith(shard_.string()), HasSubstr("chunk z 0, y 0, x 2 is damaged")));
   EXPECT_EQ(source.damage().chunks, 0);
-  EXPECT_NE(source.bricks(0, std::vector<ChunkIndex>{run_[0]})[0], nullptr);
+  EXPECT_NE(source.bricks(0, std::vector<ChunkIndex>{run_[0]}, kAllOfIt)[0], nullptr);
 }
 
 TEST_P(VolumeAsBricks, ToleratesADamagedChunkInTheMiddleOfOthers) {
   std::vector<TexelBrick> whole;
   {
     const Volume volume = open();
-    whole = VolumeBricks(volume, 10'000'000).bricks(0, run_);
+    whole = VolumeBricks(volume, 10'000'000).bricks(0, run_, kAllOfIt);
   }
   damage(2);
   const Volume volume = open();
   VolumeBricks source(volume, 10'000'000, {true, {10, 20, 30}});
-  const std::vector<TexelBrick> bricks = source.bricks(0, run_);
+  const std::vector<TexelBrick> bricks = source.bricks(0, run_, kAllOfIt);
   for (const std::size_t i : {0U, 1U, 3U, 4U}) {
     EXPECT_EQ(first_texel(bricks[i]), first_texel(whole[i]));
   }
@@ -218,8 +235,8 @@ TEST_P(VolumeAsBricks, CountsEachDamagedChunkOnceAndTellsOneOfThem) {
   truncate_file(shard_, 0.0);
   const Volume volume = open();
   VolumeBricks source(volume, 10'000'000, {true, {}});
-  source.bricks(0, run_);
-  source.bricks(0, run_);  // they are kept, like any others
+  source.bricks(0, run_, kAllOfIt);
+  source.bricks(0, run_, kAllOfIt);  // they are kept, like any others
   EXPECT_EQ(source.damage().chunks, static_cast<std::int64_t>(run_.size()));
   EXPECT_THAT(source.damage().first, HasSubstr("shorter than its index"));
 }

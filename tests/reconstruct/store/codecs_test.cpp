@@ -45,6 +45,54 @@ TEST_P(EveryCodec, GivesBackTheSameVoxels) {
   EXPECT_EQ(decoded, voxels);
 }
 
+TEST_P(EveryCodec, DecodesTheLayersThatAreNeeded) {
+  const auto& [name, interleaved, bits] = GetParam();
+  const VolumeLayout layout = layout_of(name, interleaved);
+  const ChunkCodec codec(layout, bits);
+  Bytes noise(codec.chunk_bytes());  // which no encoder makes smaller
+  cv::Mat row(1, static_cast<int>(noise.size()), CV_8U, noise.data());
+  cv::RNG(1).fill(row, cv::RNG::UNIFORM, 0, 256);
+  const std::size_t layer_bytes = noise.size() / static_cast<std::size_t>(layout.chunk[0]);
+  for (const Bytes& voxels : {voxels_of(layout, bits), noise}) {
+    const Bytes encoded = codec.encode(voxels);
+    for (int first = 0; first <= layout.chunk[0]; ++first) {
+      for (int end = first; end <= layout.chunk[0]; ++end) {
+        Bytes room(voxels.size());
+        const auto decoded = codec.decode_layers(encoded, {first, end}, room);
+        ASSERT_EQ(decoded.size(), voxels.size());
+        const auto from =
+            static_cast<std::ptrdiff_t>(static_cast<std::size_t>(first) * layer_bytes);
+        const auto to = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(end) * layer_bytes);
+        EXPECT_TRUE(std::equal(voxels.begin() + from, voxels.begin() + to, decoded.begin() + from))
+            << first << " " << end;
+      }
+    }
+  }
+}
+
+TEST_P(EveryCodec, RefusesADamagedChunkOfWhichAnyLayersAreNeeded) {
+  const auto& [name, interleaved, bits] = GetParam();
+  const VolumeLayout layout = layout_of(name, interleaved);
+  const ChunkCodec codec(layout, bits);
+  Bytes encoded = codec.encode(voxels_of(layout, bits));
+  encoded.back() ^= std::byte{1};
+  Bytes room(codec.chunk_bytes());
+  EXPECT_THROW(codec.decode_layers(encoded, {1, 2}, room), SampleError);
+  EXPECT_THROW(codec.decode_layers({}, {1, 2}, room), SampleError);
+}
+
+TEST(ChunkCodec, LeavesLayersThatAreNotNeededAlone) {
+  VolumeLayout layout = layout_of("blosc-lz4-noshuffle", true);
+  layout.chunk = {8, 16, 24};
+  const ChunkCodec codec(layout, 8);
+  const Bytes encoded = codec.encode(voxels_of(layout, 8));
+  Bytes room(codec.chunk_bytes(), std::byte{0xEE});
+  codec.decode_layers(encoded, {2, 4}, room);
+  const auto layer = static_cast<std::ptrdiff_t>(codec.chunk_bytes() / 8);
+  EXPECT_EQ(std::count(room.begin(), room.begin() + 2 * layer, std::byte{0xEE}), 2 * layer);
+  EXPECT_EQ(std::count(room.begin() + 4 * layer, room.end(), std::byte{0xEE}), 4 * layer);
+}
+
 TEST_P(EveryCodec, RefusesDamagedAndTruncatedBytes) {
   const auto& [name, interleaved, bits] = GetParam();
   const VolumeLayout layout = layout_of(name, interleaved);
@@ -98,7 +146,7 @@ TEST(CodecChain, IsWrittenAsZarrSpecifies) {
     {"name": "transpose", "configuration": {"order": [1, 2, 3, 0]}},
     {"name": "bytes", "configuration": {"endian": "little"}},
     {"name": "blosc", "configuration": {"cname": "lz4", "clevel": 5, "shuffle": "bitshuffle",
-                                        "typesize": 1, "blocksize": 0}},
+                                        "typesize": 1, "blocksize": 2304}},
     {"name": "crc32c"}])");
   EXPECT_EQ(codec_chain(layout_of("blosc-lz4-bitshuffle", true), 8), expected);
 }

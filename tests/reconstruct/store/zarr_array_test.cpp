@@ -97,6 +97,18 @@ TEST(ZarrArray, IsUnderstoodAsAnotherProgramWritesItAnew) {
   EXPECT_EQ(parse_array_metadata(json.dump(1, '\t'), "a"), array);
 }
 
+TEST(ZarrArray, IsUnderstoodWhateverTheSizeOfBloscsBlocks) {
+  nlohmann::json metadata = nlohmann::json::parse(array_metadata({{30, 20, 1000}, 8, {}}));
+  nlohmann::json& chunk_codecs = metadata["codecs"][0]["configuration"]["codecs"];
+  for (nlohmann::json& codec : chunk_codecs) {
+    if (codec["name"] == "blosc") {
+      ASSERT_EQ(codec["configuration"]["blocksize"], 8 * 32 * 32 * 3);
+      codec["configuration"]["blocksize"] = 0;
+    }
+  }
+  EXPECT_EQ(parse_array_metadata(metadata.dump(), "a").layout, VolumeLayout{});
+}
+
 TEST(ZarrArray, RefusesTwoBytesWithoutTheirOrder) {
   auto json = nlohmann::json::parse(array_metadata(example()));
   json["codecs"][0]["configuration"]["codecs"][1].erase("configuration");
