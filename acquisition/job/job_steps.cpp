@@ -18,9 +18,11 @@ void Job::begin_preflight() {
   cycle_.reset();
   identity_.reset();
   // The records of an earlier run are closed, after all they still write, before they are opened
-  // anew: one journal has one writer.
+  // anew: one journal has one writer. By the worker, as that waits for the disk.
   feed_.reset();
   keeper_.reset();
+  parts_.worker.post(
+      [records = std::exchange(findings_.records, nullptr)]() mutable { records.reset(); });
   findings_ = PreflightFindings();
   inspection_ = {};
   begin_inspection();

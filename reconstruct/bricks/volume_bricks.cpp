@@ -137,7 +137,7 @@ std::vector<KeptBrick> VolumeBricks::fetch(int level, std::span<const BrickFetch
 /// `voxels` has at least the layers of `cells`.
 KeptBrick VolumeBricks::brick_of(std::span<const std::byte> voxels, CellSet cells,
                                  const KeptBrick& kept) {
-  const KeptBrick brick = kept ? kept : std::make_shared<PartialBrick>(pool_.allocate());
+  KeptBrick brick = kept ? kept : std::make_shared<PartialBrick>(pool_.allocate());
   brick->add(cells & cells_.all(), [&](CellSet missing, std::byte* texels) {
     cells_.for_each_box(missing,
                         [&](const TexelBlocks::Box& box) { blocks_.lay_out(voxels, box, texels); });

@@ -104,11 +104,14 @@ struct FakeCamera : bridge::Camera {
 /// Does what is posted at once, in the caller's thread.
 struct InlineWorker : acquisition::Worker {
   bool at_work = false;  ///< while a task is done, and what it holds is released
+  std::function<void()> at_edges = [] {};  ///< called before each task and after it
   void post(std::function<void()> task) override {
+    at_edges();
     const bool before = std::exchange(at_work, true);
     task();
     task = nullptr;
     at_work = before;
+    at_edges();
   }
 };
 

@@ -163,6 +163,25 @@ TEST(Job, ComesToRestWhenTheDaemonIsToldToEnd) {
   EXPECT_FALSE(bench.say(OperatorCommand::resume).accepted);
 }
 
+TEST(Job, ClosesTheRecordsOfTheRunBeforeByItsWorker) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
+  ASSERT_TRUE(bench.say(OperatorCommand::abort).accepted);
+  ASSERT_TRUE(bench.reach(JobState::aborted)) << bench.alarm();
+  // As long as a journal is open its log is there.
+  const std::filesystem::path log = bench.settings.plan.sample / "journal.sqlite-wal";
+  std::vector<bool> open;  // before a task and after it, in turns
+  bench.worker.at_edges = [&] { open.push_back(std::filesystem::exists(log)); };
+  ASSERT_TRUE(bench.say(OperatorCommand::start).accepted);
+  bench.worker.at_edges = [] {};
+  EXPECT_THAT(open, testing::Contains(false)) << "it was never closed";
+  for (std::size_t i = 2; i < open.size(); i += 2) {
+    EXPECT_EQ(open[i], open[i - 1]) << "the control thread has closed it, or opened it";
+  }
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
 TEST(Job, PreparesALayerWhileItIsAssessedAndGivesUpThatOfARejectedFrame) {
   JobBench bench;
   bench.start_job();
