@@ -11,9 +11,10 @@
 namespace biotomy::reconstruct {
 
 /// The voxels that a section is made of lie near its plane: each is at most `reach` voxels, along
-/// each axis by itself, from some point of it. In voxels of one level, axes x, y, z.
+/// each axis by itself, from some point of it. In voxels of one level, axes x, y, z. As it
+/// stands, without a normal, everything is near.
 struct PlaneReach {
-  std::array<double, 3> normal{};  ///< of any length above 0
+  std::array<double, 3> normal{};  ///< of any length
   double offset = 0.0;             ///< normal · point, the same for all points of the plane
   double reach = 0.0;
 };

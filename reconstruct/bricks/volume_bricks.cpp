@@ -76,20 +76,23 @@ bool VolumeBricks::is_complete(int level, ChunkIndex index) const {
          volume_.layers_present();
 }
 
-std::vector<BrickPart> VolumeBricks::parts(std::span<const ChunkIndex> wanted,
+// Where all of a chunk is decoded anyway, all of it is laid out: to leave cells out would save
+// little, and cost as much again when the next plane needs them.
+std::vector<BrickPart> VolumeBricks::parts(int level, std::span<const ChunkIndex> wanted,
                                            const PlaneReach& plane) const {
   const CellsNearPlane near(cells_, volume_.layout().chunk, plane);
   std::vector<BrickPart> parts;
   parts.reserve(wanted.size());
   for (const ChunkIndex& index : wanted) {
-    parts.push_back({index, near.of(index)});
+    const bool is_in_parts = volume_.decodes_by_layers() && !in_tail(level, index);
+    parts.push_back({index, is_in_parts ? near.of(index) : cells_.all()});
   }
   return parts;
 }
 
 std::vector<TexelBrick> VolumeBricks::bricks(int level, std::span<const ChunkIndex> wanted,
                                              const PlaneReach& plane) {
-  return cache_.get(level, parts(wanted, plane));
+  return cache_.get(level, parts(level, wanted, plane));
 }
 
 bool VolumeBricks::in_tail(int level, ChunkIndex index) const {
@@ -98,7 +101,7 @@ bool VolumeBricks::in_tail(int level, ChunkIndex index) const {
 
 // What the tail touches is not announced: it is made of images, not of the volume's chunks.
 void VolumeBricks::expect(int level, std::span<const ChunkIndex> soon, const PlaneReach& plane) {
-  std::vector<ChunkIndex> missing = cache_.missing(level, parts(soon, plane));
+  std::vector<ChunkIndex> missing = cache_.missing(level, parts(level, soon, plane));
   std::erase_if(missing, [&](const ChunkIndex& index) { return in_tail(level, index); });
   volume_.expect_chunks(level, missing);
 }
@@ -120,12 +123,14 @@ std::vector<KeptBrick> VolumeBricks::fetch(int level, std::span<const BrickFetch
       }
     };
   };
-  const auto replace_in = [&](const Part& part) {
-    return policy_.tolerate ? Volume::OnDamage([&](std::size_t which, const SampleError& error) {
+  const auto replace_in = [&](const Part& part) -> Volume::OnDamage {
+    if (!policy_.tolerate) {
+      return {};
+    }
+    return [&](std::size_t which, const SampleError& error) {
       note_damage(level, part.chunks[which], error.what());
       bricks[part.places[which]] = damaged_brick();
-    })
-                            : Volume::OnDamage();
+    };
   };
   volume_.read_chunks(level, stored.chunks, keep_in(stored), replace_in(stored), stored.layers);
   if (!overlaid.chunks.empty()) {

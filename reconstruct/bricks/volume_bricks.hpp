@@ -62,7 +62,8 @@ class VolumeBricks final : public BrickSource {
                const LayerTail* tail, const BlockPool* pool);
   bool in_tail(int level, ChunkIndex index) const;
   bool is_complete(int level, ChunkIndex index) const;
-  std::vector<BrickPart> parts(std::span<const ChunkIndex> wanted, const PlaneReach& plane) const;
+  std::vector<BrickPart> parts(int level, std::span<const ChunkIndex> wanted,
+                               const PlaneReach& plane) const;
   std::vector<KeptBrick> fetch(int level, std::span<const BrickFetch> wanted);
   KeptBrick brick_of(std::span<const std::byte> voxels, CellSet cells, const KeptBrick& kept);
   KeptBrick damaged_brick();

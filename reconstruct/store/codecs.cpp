@@ -105,15 +105,11 @@ void planar_to_interleaved(std::span<const std::byte> planes, std::span<std::byt
   cv::merge(in.data(), in.size(), out);
 }
 
-}  // namespace
-
 /// What a Blosc buffer says of itself.
 struct BloscHeader {
   std::size_t value_bytes = 0;  ///< above 0
   bool is_plain = false;        ///< holds what it was made of as it was, as its last bytes
 };
-
-namespace {
 
 /// Whether the header of a valid Blosc buffer names this compressor. Blosc would meet another one
 /// that it lacks with a line on stderr, and one that it has with a chunk that no writer of ours
@@ -256,6 +252,10 @@ void ChunkCodec::decode_body(std::span<const std::byte> body, std::span<std::byt
   }
 }
 
+bool ChunkCodec::decodes_by_layers() const {
+  return interleaved_ && compressor_.kind != Compressor::Kind::zstd;
+}
+
 std::span<const std::byte> ChunkCodec::decode_layers(std::span<const std::byte> encoded,
                                                      ChunkLayers layers,
                                                      std::span<std::byte> room) const {
@@ -268,7 +268,7 @@ std::span<const std::byte> ChunkCodec::decode_layers(std::span<const std::byte> 
     if (header.is_plain) {
       return body.last(room.size());
     }
-    if (decompress_layers(body, header, layers, room)) {
+    if (decompress_layers(body, header.value_bytes, layers, room)) {
       return room;
     }
   }
@@ -276,17 +276,18 @@ std::span<const std::byte> ChunkCodec::decode_layers(std::span<const std::byte> 
   return room;
 }
 
-/// False where that can't be done, or is all of the chunk.
-bool ChunkCodec::decompress_layers(std::span<const std::byte> body, const BloscHeader& header,
+/// Blosc counts in values of the size that its buffer names. False where the layers do not begin
+/// and end with one, or are all of the chunk.
+bool ChunkCodec::decompress_layers(std::span<const std::byte> body, std::size_t value_bytes,
                                    ChunkLayers layers, std::span<std::byte> room) const {
   const std::size_t layer_bytes = room.size() / layers_;
   const std::size_t first = static_cast<std::size_t>(layers.first) * layer_bytes;
   const std::size_t bytes = static_cast<std::size_t>(layers.end - layers.first) * layer_bytes;
-  if (bytes == room.size() || first % header.value_bytes != 0 || bytes % header.value_bytes != 0) {
+  if (bytes == room.size() || first % value_bytes != 0 || bytes % value_bytes != 0) {
     return false;
   }
-  return blosc_getitem(body.data(), static_cast<int>(first / header.value_bytes),
-                       static_cast<int>(bytes / header.value_bytes),
+  return blosc_getitem(body.data(), static_cast<int>(first / value_bytes),
+                       static_cast<int>(bytes / value_bytes),
                        room.data() + first) == static_cast<int>(bytes);
 }
 

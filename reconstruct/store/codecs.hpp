@@ -12,7 +12,6 @@
 namespace biotomy::reconstruct {
 
 struct Compressor;
-struct BloscHeader;
 
 /// The names that a VolumeLayout's `codec` can have: `raw`, `zstd1`, `blosc-lz4-bitshuffle` and
 /// their like. Blosc shuffles single colour values: with whole voxels for elements (typesize 3) it
@@ -58,12 +57,15 @@ class ChunkCodec {
   std::span<const std::byte> decode_layers(std::span<const std::byte> encoded, ChunkLayers layers,
                                            std::span<std::byte> room) const;
 
+  /// Whether that may be less work than decoding all.
+  bool decodes_by_layers() const;
+
  private:
   static constexpr std::size_t kColours = 3;
   static constexpr std::size_t kLeastEncoded = 1024;  // headers and checksums of tiny chunks
 
   void decode_body(std::span<const std::byte> body, std::span<std::byte> voxels) const;
-  bool decompress_layers(std::span<const std::byte> body, const BloscHeader& header,
+  bool decompress_layers(std::span<const std::byte> body, std::size_t value_bytes,
                          ChunkLayers layers, std::span<std::byte> room) const;
   std::vector<std::byte> compress(std::span<const std::byte> plain) const;
   void decompress(std::span<const std::byte> encoded, std::span<std::byte> plain) const;

@@ -429,6 +429,10 @@ void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const On
   whole_loop(runs.size(), [&](std::size_t i) { read_run(runs[i]); });
 }
 
+bool Volume::decodes_by_layers() const {
+  return state_->codec.decodes_by_layers();
+}
+
 void Volume::expect_chunks(int level, std::span<const ChunkIndex> soon) const {
   const auto ignore = [](std::size_t, const auto&...) {};  // the reading will say it
   std::vector<Piece> pieces = state_->find(level, soon, ignore, ignore);

@@ -80,6 +80,9 @@ class Volume {
   void read_chunks(int level, std::span<const ChunkIndex> wanted, const OnChunk& on_chunk,
                    const OnDamage& on_damage = {}, std::span<const ChunkLayers> layers = {}) const;
 
+  /// Whether to read some layers of a chunk may be less work than to read all.
+  bool decodes_by_layers() const;
+
   /// These will be read soon: their bytes may be fetched from the disk meanwhile. Returns at once.
   void expect_chunks(int level, std::span<const ChunkIndex> soon) const;
 

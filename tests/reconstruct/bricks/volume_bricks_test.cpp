@@ -150,6 +150,20 @@ TEST_P(VolumeAsBricks, AreReadASecondTimeForAnotherPlaneAndThenNoMore) {
   EXPECT_EQ(chunks_read_for(7.0), 0) << "the second time all cells were read";
 }
 
+TEST_P(VolumeAsBricks, AreReadOnceWhereAllOfAChunkIsDecodedAnyway) {
+  VolumeLayout layout;
+  layout.chunk = {8, 16, 16};
+  layout.shard = {8, 32, 64};
+  layout.codec = "zstd1";
+  const SampleFolder& sample = written_[bits() == 8 ? 0 : 1]->sample;
+  VolumeWriter(sample, layout, folder_ / "other").append(kStoredLayers, false);
+  const Volume volume = Volume::open(folder_ / "other");
+  VolumeBricks source(volume, 10'000'000);
+  source.bricks(0, run_, {{0.0, 0.0, 1.0}, 2.0, 0.5});
+  source.bricks(0, run_, {{0.0, 0.0, 1.0}, 5.0, 0.5});
+  EXPECT_EQ(volume.statistics().chunks_read, 5);
+}
+
 TEST_P(VolumeAsBricks, KeepsWhatFitsAndReadsTheRestAgain) {
   const Volume volume = open();
   const std::size_t brick_bytes = TexelBlocks(volume.layout().chunk, bits()).brick_bytes();
