@@ -12,7 +12,6 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr std::size_t kFillWeight = 64;  // a remembered "nothing there" is not free either
-constexpr CellSet kAllCells = ~CellSet{0};
 
 bool holds(const KeptBrick& brick, CellSet cells) {
   return brick == nullptr || brick->holds(cells);
@@ -61,8 +60,7 @@ struct BrickCache::State {
       } else if (const auto other = being_fetched.find(key); other != being_fetched.end()) {
         work.awaited.emplace_back(i, other->second);
       } else {
-        work.fetches.push_back(kept != nullptr ? BrickFetch{{part.index, kAllCells}, *kept}
-                                               : BrickFetch{part, nullptr});
+        work.fetches.push_back({part, kept != nullptr ? *kept : nullptr});
         work.places.push_back(i);
         being_fetched.emplace(key, work.promises.emplace_back().get_future().share());
       }

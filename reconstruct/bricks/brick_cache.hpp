@@ -25,16 +25,15 @@ struct BrickPart {
   CellSet cells = 0;
 };
 
-/// Cells that have to be fetched, into the brick that is kept already, if one is.
+/// Cells that have to be fetched; into the brick that is kept already, if one is.
 struct BrickFetch {
   BrickPart part;
   KeptBrick kept;
 };
 
 /// Bricks kept up to a number of bytes, the longest unused going first. A brick in use by a caller
-/// stays alive whatever the cache does. Two threads that ask for the same brick fetch it once. Of a
-/// brick only the cells are fetched that are asked for, until others are asked for too: then it is
-/// of use to more than one plane, and all of it is fetched. Safe for many threads.
+/// stays alive whatever the cache does. Two threads that ask for the same brick fetch it once, but
+/// for cells that the first did not ask for. Safe for many threads.
 class BrickCache {
  public:
   /// Gives the bricks of a level in the order of what is wanted, with those cells at least.

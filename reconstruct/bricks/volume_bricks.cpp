@@ -1,5 +1,7 @@
 #include "reconstruct/bricks/volume_bricks.hpp"
 
+#include <algorithm>
+
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::reconstruct {
@@ -49,6 +51,7 @@ VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
                     volume.layout().chunk == before.volume_.layout().chunk &&
                     volume.levels() == before.volume_.levels() &&
                     volume.layers_present() >= before.volume_.layers_present();
+  several_planes_ = before.several_planes_.load();
   if (same) {
     cache_.adopt(before.cache_,
                  [&](const BrickKey& key) { return before.is_complete(key.first, key.second); });
@@ -108,18 +111,24 @@ void VolumeBricks::expect(int level, std::span<const ChunkIndex> soon, const Pla
 
 std::vector<KeptBrick> VolumeBricks::fetch(int level, std::span<const BrickFetch> wanted) {
   std::vector<KeptBrick> bricks(wanted.size());
+  if (std::any_of(wanted.begin(), wanted.end(),
+                  [](const BrickFetch& each) { return each.kept != nullptr; })) {
+    several_planes_ = true;
+  }
+  const auto cells = [&, whole = several_planes_.load()](std::size_t place) {
+    return whole ? cells_.all() : wanted[place].part.cells;
+  };
   Part stored;
   Part overlaid;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const BrickPart& part = wanted[i].part;
-    (in_tail(level, part.index) ? overlaid : stored)
-        .add(part.index, cells_.layers(part.cells & cells_.all()), i);
+    const ChunkIndex index = wanted[i].part.index;
+    (in_tail(level, index) ? overlaid : stored).add(index, cells_.layers(cells(i)), i);
   }
   const auto keep_in = [&](const Part& part) {
     return [&](std::size_t which, std::span<const std::byte> voxels) {
       const std::size_t place = part.places[which];
       if (!voxels.empty()) {
-        bricks[place] = brick_of(voxels, wanted[place].part.cells, wanted[place].kept);
+        bricks[place] = brick_of(voxels, cells(place), wanted[place].kept);
       }
     };
   };
@@ -143,7 +152,7 @@ std::vector<KeptBrick> VolumeBricks::fetch(int level, std::span<const BrickFetch
 KeptBrick VolumeBricks::brick_of(std::span<const std::byte> voxels, CellSet cells,
                                  const KeptBrick& kept) {
   KeptBrick brick = kept ? kept : std::make_shared<PartialBrick>(pool_.allocate());
-  brick->add(cells & cells_.all(), [&](CellSet missing, std::byte* texels) {
+  brick->add(cells, [&](CellSet missing, std::byte* texels) {
     cells_.for_each_box(missing,
                         [&](const TexelBlocks::Box& box) { blocks_.lay_out(voxels, box, texels); });
   });

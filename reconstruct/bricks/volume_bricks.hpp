@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -34,7 +35,9 @@ struct Damage {
 };
 
 /// A volume read through a cache of decoded bricks, with the layers laid over it that are not in it
-/// yet, if a tail is given. Volume and tail must outlive it.
+/// yet, if a tail is given. Of a chunk only the cells near the plane are decoded and laid out,
+/// until a brick that is kept lacks what another plane needs: from then on all of it is, as planes
+/// that follow each other need what lies beside them. Volume and tail must outlive it.
 class VolumeBricks final : public BrickSource {
  public:
   VolumeBricks(const Volume& volume, std::size_t capacity_bytes, const DamagePolicy& policy = {},
@@ -76,6 +79,7 @@ class VolumeBricks final : public BrickSource {
   BrickCells cells_;
   BlockPool pool_;
   BrickCache cache_;
+  std::atomic<bool> several_planes_{false};
   mutable std::mutex mutex_;
   std::set<std::pair<int, ChunkIndex>> damaged_;
   std::string first_damage_;

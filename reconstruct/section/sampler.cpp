@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -31,7 +32,8 @@ constexpr int kTileColumnsOf16Bits =
 constexpr int kTileRows = 32;
 constexpr int kStripRows = 32;
 constexpr int kLeastStripRows = 8;
-constexpr double kBoxBricks = 4096;  // a tile's table stays in the nearest cache levels
+constexpr std::size_t kStripsPlanned = 4;  // and announced: more keep a disk busier, warm they cost
+constexpr double kBoxBricks = 4096;        // a tile's table stays in the nearest cache levels
 
 double step_between(const VoxelRow& a, const VoxelRow& b, std::size_t axis) {
   return std::abs(b.start[axis] - a.start[axis]);
@@ -96,7 +98,7 @@ struct Strip {
 };
 
 /// Samples strip by strip, one level after the other. While a strip is sampled the next one's
-/// bricks are read and decoded, and those of the one after it are found and announced: so threads
+/// bricks are read and decoded, and those of one further down are found and announced: so threads
 /// need not wait for each other, nor for the disk.
 template <typename Level>
 class PictureSampler {
@@ -114,26 +116,34 @@ class PictureSampler {
 
   SampleStatistics sample(cv::Mat& image) {
     image.create(grid_.rows, grid_.columns, sizeof(Level) == 1 ? CV_8UC3 : CV_16UC3);
-    std::optional<Strip> strip = next_strip();
-    if (strip) {
-      fetch(*strip);
+    std::deque<Strip> strips;
+    while (std::optional<Strip> strip = next_strip()) {
+      strips.push_back(*std::move(strip));
+      if (strips.size() == kStripsPlanned) {
+        break;
+      }
     }
-    std::optional<Strip> next = next_strip();
+    if (!strips.empty()) {
+      fetch(strips.front());
+    }
     std::int64_t rows = 0;
-    while (strip) {
-      std::optional<Strip> after;
-      tbb::parallel_invoke([&] { fill(*strip, image); },
+    while (!strips.empty()) {
+      std::optional<Strip> further;
+      tbb::parallel_invoke([&] { fill(strips.front(), image); },
                            [&] {
-                             if (next) {
-                               fetch(*next);
+                             if (strips.size() > 1) {
+                               fetch(strips[1]);
                              }
                            },
-                           [&] { after = next_strip(); });
-      rows += strip->last_row - strip->first_row;
+                           [&] { further = next_strip(); });
+      rows += strips.front().last_row - strips.front().first_row;
       if (on_rows_) {
         on_rows_(rows, std::int64_t{grid_.rows} * std::ssize(levels_));
       }
-      strip = std::exchange(next, std::move(after));
+      strips.pop_front();
+      if (further) {
+        strips.push_back(*std::move(further));
+      }
     }
     count_touched();
     SampleStatistics statistics;

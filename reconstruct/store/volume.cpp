@@ -26,7 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kIndexCacheBytes = std::size_t{64} << 20;
-constexpr std::uint64_t kLongestRun = std::uint64_t{1} << 18;  // bytes read and decoded by one task
+constexpr std::uint64_t kLongestRead = std::uint64_t{1} << 18;  // bytes, then decoded by one task
+constexpr std::uint64_t kLongestExpected = std::uint64_t{1} << 23;
 constexpr BlockCount kNoShard{-1, -1, -1};
 constexpr int kMostReplacements = 3;  // of one shard within one read: a writer is not that quick
 
@@ -60,8 +61,8 @@ std::uint64_t bytes_of(Run run) {
   return run.back().range.offset + run.back().range.length - run.front().range.offset;
 }
 
-/// Sorts the pieces and cuts them into runs that are read at once.
-std::vector<Run> runs_of(std::vector<Piece>& pieces) {
+/// Sorts the pieces and cuts them into runs of up to `longest` bytes, or of one piece.
+std::vector<Run> runs_of(std::vector<Piece>& pieces, std::uint64_t longest) {
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
     return std::tie(a.shard->name, a.range.offset) < std::tie(b.shard->name, b.range.offset);
   });
@@ -70,7 +71,7 @@ std::vector<Run> runs_of(std::vector<Piece>& pieces) {
     std::size_t end = first + 1;
     std::uint64_t bytes = pieces[first].range.length;
     while (end < pieces.size() && follows(pieces[end - 1], pieces[end]) &&
-           bytes + pieces[end].range.length <= kLongestRun) {
+           bytes + pieces[end].range.length <= longest) {
       bytes += pieces[end++].range.length;
     }
     runs.emplace_back(pieces.data() + first, end - first);
@@ -425,7 +426,7 @@ void Volume::read_chunks(int level, std::span<const ChunkIndex> wanted, const On
   };
   std::vector<Piece> pieces = state_->find(
       level, wanted, [&](std::size_t which) { on_chunk(which, {}); }, fail);
-  const std::vector<Run> runs = runs_of(pieces);
+  const std::vector<Run> runs = runs_of(pieces, kLongestRead);
   whole_loop(runs.size(), [&](std::size_t i) { read_run(runs[i]); });
 }
 
@@ -436,7 +437,7 @@ bool Volume::decodes_by_layers() const {
 void Volume::expect_chunks(int level, std::span<const ChunkIndex> soon) const {
   const auto ignore = [](std::size_t, const auto&...) {};  // the reading will say it
   std::vector<Piece> pieces = state_->find(level, soon, ignore, ignore);
-  const std::vector<Run> runs = runs_of(pieces);
+  const std::vector<Run> runs = runs_of(pieces, kLongestExpected);
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
     const Piece& first = runs[i].front();
     state_->objects->expect(first.shard->name, first.shard->version, first.range.offset,

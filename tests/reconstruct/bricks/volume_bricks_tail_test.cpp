@@ -68,7 +68,8 @@ TEST(BricksOfASample, GivesTheLayersOfAStoredSampleBackAsSections) {
     EXPECT_EQ(cv::norm(section.image, layer_image(layer), cv::NORM_INF), 0.0) << layer;
     EXPECT_EQ(section.statistics.chunks_touched, 12);
   }
-  EXPECT_EQ(volume.statistics().chunks_read, 48) << "each twice: see BrickCache";
+  EXPECT_EQ(volume.statistics().chunks_read, 36)
+      << "of two bands those of the first twice: see VolumeBricks";
 }
 
 TEST(BricksOfASample, AreNotReadAgainWhereTheVolumeHasGrownBehindThem) {

@@ -131,23 +131,26 @@ TEST_P(VolumeAsBricks, GivesTheLayersOfAStoredSampleBackAsSections) {
     EXPECT_EQ(cv::norm(section.image, wanted, cv::NORM_INF), 0.0) << layer;
     EXPECT_EQ(section.statistics.chunks_touched, 12);
   }
-  // Each chunk twice, as what the second section needs was left out for the first; then no more.
+  // Each chunk twice, as what a second section needs was left out for the first; then no more.
   EXPECT_EQ(volume.statistics().chunks_read, 24);
 }
 
 TEST_P(VolumeAsBricks, AreReadASecondTimeForAnotherPlaneAndThenNoMore) {
   const Volume volume = open();
   VolumeBricks source(volume, 10'000'000);
-  const auto chunks_read_for = [&](double layer) {
+  const std::vector<ChunkIndex> later{{0, 2, 0}, {0, 2, 1}};
+  const auto chunks_read_for = [&](double layer, const std::vector<ChunkIndex>& wanted) {
     const std::int64_t before = volume.statistics().chunks_read;
-    source.bricks(0, run_, {{0.0, 0.0, 1.0}, layer, 0.5});
+    source.bricks(0, wanted, {{0.0, 0.0, 1.0}, layer, 0.5});
     return volume.statistics().chunks_read - before;
   };
-  EXPECT_EQ(chunks_read_for(2.0), 5);
-  EXPECT_EQ(chunks_read_for(3.0), 0) << "in the same cells";
-  EXPECT_EQ(chunks_read_for(5.0), 5);
-  EXPECT_EQ(chunks_read_for(2.0), 0);
-  EXPECT_EQ(chunks_read_for(7.0), 0) << "the second time all cells were read";
+  EXPECT_EQ(chunks_read_for(2.0, run_), 5);
+  EXPECT_EQ(chunks_read_for(3.0, run_), 0) << "in the same cells";
+  EXPECT_EQ(chunks_read_for(5.0, run_), 5);
+  EXPECT_EQ(chunks_read_for(2.0, run_), 0);
+  EXPECT_EQ(chunks_read_for(7.0, run_), 0) << "the second time all cells were read";
+  EXPECT_EQ(chunks_read_for(2.0, later), 2);
+  EXPECT_EQ(chunks_read_for(7.0, later), 0) << "there are several planes: all was read at once";
 }
 
 TEST_P(VolumeAsBricks, AreReadOnceWhereAllOfAChunkIsDecodedAnyway) {
