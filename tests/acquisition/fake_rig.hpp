@@ -103,7 +103,7 @@ struct FakeCamera : bridge::Camera {
 
 /// Does what is posted at once, in the caller's thread.
 struct InlineWorker : acquisition::Worker {
-  bool at_work = false;  ///< while a task is done, and what it holds is released
+  bool at_work = false;                    ///< while a task is done, and what it holds is released
   std::function<void()> at_edges = [] {};  ///< called before each task and after it
   void post(std::function<void()> task) override {
     at_edges();
