@@ -6,8 +6,6 @@
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr std::size_t kCells =
-    std::size_t{BrickCells::kAlongAxis} * BrickCells::kAlongAxis * BrickCells::kAlongAxis;
 constexpr double kRounding = 1e-3;  // voxels; places are in fixed point
 
 int round_up(int size, int unit) {
@@ -84,7 +82,7 @@ CellSet CellsNearPlane::of(ChunkIndex brick) const {
   const double place =
       brick_step_[0] * brick.x + brick_step_[1] * brick.y + brick_step_[2] * brick.z - offset_;
   CellSet cells = 0;
-  for (std::size_t i = 0; i < kCells; ++i) {
+  for (std::size_t i = 0; i < BrickCells::kCells; ++i) {
     cells |= static_cast<CellSet>(std::abs(middle_[i] + place) <= reach_[i]) << i;
   }
   return cells & all_;

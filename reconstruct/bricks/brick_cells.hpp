@@ -29,6 +29,7 @@ using CellSet = std::uint64_t;
 class BrickCells {
  public:
   static constexpr int kAlongAxis = 4;
+  static constexpr std::size_t kCells = std::size_t{kAlongAxis} * kAlongAxis * kAlongAxis;
 
   /// `shape` is of the chunk: z, y, x.
   explicit BrickCells(const std::array<int, 3>& shape);
@@ -86,10 +87,13 @@ class CellsNearPlane {
   CellSet of(ChunkIndex brick) const;
 
  private:
-  std::array<double, 3> brick_step_{};  // of normal · point, from a brick to the next along an axis
+  using OfCells = std::array<double, BrickCells::kCells>;
+
+  // From a brick to the next along an axis normal · point grows by so much.
+  std::array<double, 3> brick_step_{};
   double offset_;
-  std::array<double, 64> middle_{};  // of each cell: normal · its middle, from the brick's first
-  std::array<double, 64> reach_{};   // texel; how far from 0 that may be, less the plane's offset
+  OfCells middle_{};  // normal · the cell's middle, seen from its brick
+  OfCells reach_{};   // how far that may be from the plane's, for the cell to be near
   CellSet all_;
 };
 

@@ -53,8 +53,8 @@ Support support_of(Interpolation kind) {
   return {1, 2, 0.0};
 }
 
-// A texel of the support is less than `radius` away, and a position beyond the border, up to half a
-// voxel of a coarser level, may be moved to it.
+// A texel of the support is up to its shift, or the texels above, away from the pixel; which may
+// have been moved to the border from up to half a voxel beyond it, in a coarser level.
 PlaneReach plane_reach(const BrickSource& source, int level, const PixelGrid& grid,
                        Interpolation kind) {
   constexpr double kBeyondBorder = 0.5;

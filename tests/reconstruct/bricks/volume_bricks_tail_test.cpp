@@ -195,6 +195,23 @@ TEST_P(VolumeWithATail, KeepsWhatItMadeOfTheTail) {
   EXPECT_TRUE(same_pixels(cut_section(source, asked).image, first));  // from the cache
 }
 
+TEST_P(VolumeWithATail, MakesAChunkOfTheTailForAllPlanesAtOnce) {
+  const Volume volume = Volume::of_sample(sample_);
+  const Volume whole = Volume::of_sample(finished_);
+  const LayerTail tail(sample_, volume);
+  VolumeBricks source(volume, kCacheBytes, {}, &tail);
+  VolumeBricks expected(whole, kCacheBytes);
+  const auto layer_from = [&](VolumeBricks& bricks, std::int64_t layer) {
+    const Vector3 point{0, 0, static_cast<double>(layer) * volume.cuboid().spacing.z};
+    return cut_section(bricks, request({0, 0, 1}, point, Interpolation::linear, 10.0)).image;
+  };
+  layer_from(source, kInVolume);  // the first layer of a chunk, which has four
+  for (std::int64_t layer = kInVolume + 1; layer <= kOnDisk; ++layer) {
+    std::filesystem::remove(sample_.layer_path(layer));
+  }
+  EXPECT_TRUE(same_pixels(layer_from(source, kInVolume + 3), layer_from(expected, kInVolume + 3)));
+}
+
 TEST_P(VolumeWithATail, PaintsWhatADamagedLayerTakesAlongWhenThatIsTolerated) {
   const Volume volume = Volume::of_sample(sample_);
   const LayerTail tail(sample_, volume);
