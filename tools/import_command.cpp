@@ -11,6 +11,7 @@
 #include "reconstruct/sample/image_sequence.hpp"
 #include "reconstruct/store/codecs.hpp"
 #include "tools/command.hpp"
+#include "tools/freed_memory.hpp"
 #include "tools/interruption.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -95,6 +96,7 @@ void run(const Options& options) {
   const reconstruct::ImportRequest request = request_of(options);
   const auto images =
       reconstruct::ImageSequence::find({options.inputs.begin(), options.inputs.end()});
+  keep_freed_memory();
   const Interruption interruption;
   ProgressBar bar("Importing", "layers");
   import_images(

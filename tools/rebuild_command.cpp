@@ -9,6 +9,7 @@
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/volume_rebuild.hpp"
 #include "tools/command.hpp"
+#include "tools/freed_memory.hpp"
 #include "tools/interruption.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -26,6 +27,7 @@ fs::path without_slash(const std::string& folder) {
 void run(const std::string& folder) {
   const auto sample = reconstruct::SampleFolder::open(folder);
   const acquisition::SampleLock lock(without_slash(folder));
+  keep_freed_memory();
   const Interruption interruption;
   ProgressBar bar("Rebuilding", "layers");
   reconstruct::rebuild_volume(

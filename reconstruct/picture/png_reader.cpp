@@ -6,12 +6,15 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <png.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/inflated_png.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -23,7 +26,7 @@ constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
 /// need a destructor; this has it.
 class Reader {
  public:
-  explicit Reader(std::span<const std::byte> file) : rest_(file) {
+  explicit Reader(std::vector<std::span<const std::byte>> parts) : parts_(std::move(parts)) {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
   }
@@ -38,6 +41,7 @@ class Reader {
     png_set_read_fn(png_, this, read);
     png_set_user_limits(png_, kLongestSide, kLongestSide);
     png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+    png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
     png_read_info(png_, info_);
     png_set_expand_gray_1_2_4_to_8(png_);
     png_set_palette_to_rgb(png_);
@@ -75,15 +79,23 @@ class Reader {
   }
   static void ignore(png_structp, png_const_charp) {}
   static void read(png_structp png, png_bytep bytes, std::size_t size) {
-    auto& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest_;
-    if (size > rest.size()) {
-      png_error(png, "it is truncated");
+    auto& reader = *static_cast<Reader*>(png_get_io_ptr(png));
+    while (size > 0) {
+      if (reader.part_ == reader.parts_.size()) {
+        png_error(png, "it is truncated");
+      }
+      std::span<const std::byte>& part = reader.parts_[reader.part_];
+      const std::size_t count = std::min(size, part.size());
+      std::memcpy(bytes, part.data(), count);
+      part = part.subspan(count);
+      reader.part_ += part.empty() ? 1 : 0;
+      bytes += count;
+      size -= count;
     }
-    std::memcpy(bytes, rest.data(), size);
-    rest = rest.subspan(size);
   }
 
-  std::span<const std::byte> rest_;
+  std::vector<std::span<const std::byte>> parts_;
+  std::size_t part_ = 0;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   std::array<char, 128> message_{};
@@ -92,7 +104,8 @@ class Reader {
 }  // namespace
 
 cv::Mat decode_png(std::span<const std::byte> file) {
-  Reader picture(file);
+  const std::optional<InflatedPng> inflated = InflatedPng::of(file);
+  Reader picture(inflated ? inflated->parts() : std::vector{file});
   if (!picture.read_header()) {
     throw SampleError(std::string("cannot be decoded: ") + picture.message());
   }

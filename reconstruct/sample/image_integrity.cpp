@@ -1,17 +1,15 @@
 #include "reconstruct/sample/image_integrity.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 
-#include <zlib.h>
+#include <libdeflate.h>
+
+#include "reconstruct/picture/png_chunk.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
-
-constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-constexpr std::size_t kPngChunkFrame = 12;  // length, type, CRC
 
 // Second bytes of JPEG markers; the first is 0xFF.
 constexpr std::uint8_t kMarkerPrefix = 0xFF;
@@ -25,14 +23,6 @@ constexpr std::uint8_t kStartOfScan = 0xDA;
 
 std::uint8_t byte_at(std::span<const std::byte> file, std::size_t position) {
   return std::to_integer<std::uint8_t>(file[position]);
-}
-
-std::uint32_t big_endian_32(std::span<const std::byte> file, std::size_t position) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    number = number << 8 | byte_at(file, position + i);
-  }
-  return number;
 }
 
 /// The position of the marker that ends the entropy-coded data at `position`; the file's size when
@@ -60,27 +50,18 @@ std::size_t end_of_scan(std::span<const std::byte> file, std::size_t position) {
 }  // namespace
 
 std::optional<std::string> png_damage(std::span<const std::byte> file) {
-  if (file.size() < kPngSignature.size() ||
-      std::memcmp(file.data(), kPngSignature.data(), kPngSignature.size()) != 0) {
+  if (!is_png(file)) {
     return "it is not a PNG";
   }
   std::size_t position = kPngSignature.size();
-  while (file.size() - position >= kPngChunkFrame) {
-    const std::size_t length = big_endian_32(file, position);
-    if (length > file.size() - position - kPngChunkFrame) {
-      return "it is truncated";
-    }
-    // The CRC covers the type and the data.
-    const auto covered = file.subspan(position + 4, length + 4);
-    const auto crc = static_cast<std::uint32_t>(
-        crc32_z(0, reinterpret_cast<const Bytef*>(covered.data()), covered.size()));
-    if (crc != big_endian_32(file, position + 8 + length)) {
+  while (const auto chunk = png_chunk_at(file, position)) {
+    if (libdeflate_crc32(0, chunk->covered().data(), chunk->covered().size()) != chunk->crc()) {
       return "a checksum in it is wrong";
     }
-    if (std::memcmp(covered.data(), "IEND", 4) == 0) {
+    if (chunk->is("IEND")) {
       return std::nullopt;
     }
-    position += length + kPngChunkFrame;
+    position += chunk->whole.size();
   }
   return "it is truncated";
 }

@@ -65,6 +65,9 @@ class TileEncoder {
     // cost more than they save: without those below 7 bytes, noise takes 0.4 of the time and 1 %
     // less room, and pictures without noise what they took before.
     ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_minMatch, 7);
+    // A table of matches that stays in the nearest cache: noise takes 0.75 of the time, pictures
+    // 0.9 and up to 1 % more room.
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_hashLog, 12);
     // zstd's own checksum of four bytes, so that whoever reads the layer notices a changed byte.
     // (Deflate has one as well, but libtiff does not look at it.)
     ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
