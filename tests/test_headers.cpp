@@ -1,0 +1,1 @@
+// Nothing: the headers that CMake precompiles for the tests belong to some source file.
