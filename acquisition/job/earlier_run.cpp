@@ -5,15 +5,17 @@
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/layer_journal.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
-/// The states that the journal shows last when a job was at work, or about to go on by itself.
+/// The states that the journal shows last when a job was at work, or about to go on by itself. Not
+/// `preflight`: what stopped a job there, an alarm or a person, found no journal open to write
+/// into.
 bool is_at_work(const std::string& state) {
   using enum JobState;
-  for (const JobState working :
-       {preflight, recovering, homing, conditioning, withdrawing, held, finishing}) {
+  for (const JobState working : {recovering, homing, conditioning, withdrawing, held, finishing}) {
     if (state == to_string(working)) return true;
   }
   return false;
@@ -26,6 +28,20 @@ EarlierRun read_earlier_run(const std::filesystem::path& journal) {
   const LayerJournal brought_up_to_date(journal);  // a reader knows the present version alone
   const JournalReader reader(journal);
   return {.last_sequence = reader.last_sequence(), .was_running = is_at_work(reader.last_state())};
+}
+
+EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std::string& utc) {
+  const std::filesystem::path path = sample / reconstruct::SampleFolder::kJournalName;
+  const EarlierRun earlier = read_earlier_run(path);
+  if (earlier.was_running) {
+    LayerJournal(path).record_event(
+        {.kind = "state",
+         .state = to_string(JobState::faulted),
+         .layer = 0,
+         .text = "the daemon ended while the job ran, and was started again",
+         .at = utc});
+  }
+  return earlier;
 }
 
 }  // namespace biotomy::acquisition

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace biotomy::acquisition {
 
@@ -13,5 +14,10 @@ struct EarlierRun {
 
 /// Reads it from the journal; a journal that is not there tells of nothing. Throws JournalError.
 EarlierRun read_earlier_run(const std::filesystem::path& journal);
+
+/// The same for a daemon that starts, and has the sample's lock; it writes down that it is latched.
+/// Whatever comes before the job runs again, an alarm or a person's word, the daemon after this one
+/// finds a job that was not running. `utc` as in JobEventRow. Throws JournalError.
+EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std::string& utc);
 
 }  // namespace biotomy::acquisition

@@ -116,14 +116,29 @@ bool Job::is_watched() const {
 /// Before the controller is asked: it may take its time-outs to answer, and an e-stop never waits.
 void Job::look_at_lines(TimePoint now) {
   inputs_ = parts_.lines.read_inputs();
-  if (!is_watched()) return;
-  if (const auto cause = Supervision::line_cause(inputs_)) fault(*cause, now);
+  const auto cause = Supervision::line_cause(inputs_);
+  if (!cause) return;
+  if (is_watched()) {
+    fault(*cause, now);
+  } else if (state_ == JobState::faulted && !at_rest()) {
+    break_off_parking(cause->sentence, now);
+  }
+}
+
+/// Of a rig that is parked after a fault: what moves stops here, too.
+void Job::break_off_parking(const std::string& cause, TimePoint now) {
+  if (std::exchange(fault_parking_only_stops_, true)) return;
+  stop_wanted_ = !commands_.stop_now(now);
+  stop_wanted_since_ = now;
+  fault_parking_ = FaultParking::wanted;
+  log_error(kComponent, "the parking was broken off: " + cause);
+  note("alarm", "the parking was broken off: " + cause);
 }
 
 void Job::exchange(TimePoint now) {
   fresh_.reset();
   try {
-    fresh_ = parts_.stage.exchange(++heartbeat_);
+    fresh_ = heartbeat_withheld_ ? parts_.stage.look() : parts_.stage.exchange(++heartbeat_);
     if (!last_status_) {
       commands_.raise_to(std::max(fresh_->sequence_started, fresh_->sequence_finished));
     }
@@ -297,13 +312,7 @@ void Job::enter(JobState state, TimePoint now) {
     case JobState::idle:
     case JobState::paused:
       pause_requested_ = false;
-      if (reset_answer_) {
-        answers_.push_back(
-            {std::move(*reset_answer_),
-             {true, start_after_reset_ ? "the checks have begun" : "the alarm is acknowledged"}});
-      }
-      reset_answer_.reset();
-      if (std::exchange(start_after_reset_, false)) go(JobEvent::start, now);
+      begin_rest(now);
       break;
     case JobState::done:
     case JobState::aborted:
@@ -315,7 +324,24 @@ void Job::enter(JobState state, TimePoint now) {
   }
 }
 
+/// The latch may have been reset for a job that is to start; but not in a daemon that ends.
+void Job::begin_rest(TimePoint now) {
+  const bool starts = std::exchange(start_after_reset_, false) && !shutting_down_;
+  if (reset_answer_) {
+    answers_.push_back({std::move(*reset_answer_),
+                        {true, starts ? "the checks have begun" : "the alarm is acknowledged"}});
+  }
+  reset_answer_.reset();
+  if (starts) go(JobEvent::start, now);
+}
+
 void Job::fault(const StopCause& why, TimePoint now) {
+  // First of all. Whoever else gave the controller commands, this one's number is a new one.
+  if (last_status_) {
+    commands_.raise_to(std::max(last_status_->sequence_started, last_status_->sequence_finished));
+  }
+  stop_wanted_ = !commands_.stop_now(now);
+  stop_wanted_since_ = now;
   const std::string& cause = why.sentence;
   log_error(kComponent, std::string("stopped while ") + to_string(state_) + ": " + cause);
   alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock()), state_, why.kind};
@@ -332,9 +358,9 @@ void Job::fault(const StopCause& why, TimePoint now) {
   time_left_.interrupted();
   pause_requested_ = false;
   inspection_ = {};
-  stop_wanted_ = !commands_.stop_now(now);
   if (calibration_) end_calibration(CalibrationStatus::Progress::failed, cause);
   fault_parking_ = FaultParking::wanted;
+  fault_parking_only_stops_ = Supervision::line_cause(inputs_).has_value();
   fault_park_until_ = now + settings_.limits.park_limit;
   if (cycle_) cycle_->abandon(cause);
   lamp_and_tower(true);
@@ -358,30 +384,47 @@ void Job::halt(TimePoint now) {
 
 void Job::park_after_fault(TimePoint now) {
   if (now > fault_park_until_) {
-    // Who doesn't listen for so long is left to its own watchdog; a person is called anyway.
     stop_wanted_ = false;
     fault_parking_ = FaultParking::none;
   }
   if (!fresh_) return;
   if (stop_wanted_) stop_wanted_ = !commands_.stop_now(now);
+  if (stop_wanted_ && now - stop_wanted_since_ > settings_.limits.command_start) {
+    leave_to_the_watchdog("the controller does not take it");
+  }
   if (stop_wanted_ || fault_parking_ == FaultParking::none) return;
 
   // On an e-stop, an open door or a fault of its own the controller retracts by itself, and takes
-  // no command: then there is nothing more to do.
+  // no command: then there is nothing more to do. What only our own lines have seen it does not
+  // know of; then the stop is all that it is told, and it must be seen to take it.
   const bool controller_acts = fresh_->state == bridge::ControllerState::faulted ||
-                               fresh_->interlocks.estop_pressed || fresh_->interlocks.door_open ||
-                               inputs_.estop_pressed || inputs_.door_open;
+                               fresh_->interlocks.estop_pressed || fresh_->interlocks.door_open;
   try {
-    if (!controller_acts && fault_parking_ == FaultParking::wanted) {
+    if (fault_parking_ == FaultParking::wanted) {
       parking_.begin(Parking::From::stopped, now);
       fault_parking_ = FaultParking::under_way;
-    } else if (controller_acts || parking_.poll(*fresh_, now)) {
+    }
+    if (controller_acts || (fault_parking_only_stops_ && !parking_.waits_for_stop()) ||
+        parking_.poll(*fresh_, now)) {
       fault_parking_ = FaultParking::none;
     }
   } catch (const StepFailure& failure) {
     log_error(kComponent, std::string("the rig could not be parked: ") + failure.what());
     fault_parking_ = FaultParking::none;
+    if (parking_.waits_for_stop()) leave_to_the_watchdog(failure.what());
   }
+}
+
+/// The wheel may still turn. A controller that hears no heartbeat any more stops it by itself.
+void Job::leave_to_the_watchdog(const std::string& why) {
+  if (std::exchange(heartbeat_withheld_, true)) return;
+  const std::string cause = "the stop is not confirmed (" + why +
+                            "): the controller's watchdog is left to stop the wheel; look whether "
+                            "it stands";
+  log_error(kComponent, cause);
+  note("alarm", cause);
+  alarm_->cause += "; " + cause;
+  alarm_->since = utc_text(surroundings_.wall_clock());
 }
 
 void Job::lamp_and_tower(bool tower) {

@@ -83,6 +83,7 @@ class Job {
   std::vector<OperatorCommand> accepted_commands() const;
   OperatorReply begin(JobEvent event, TimePoint now);
   OperatorReply acknowledge(TimePoint now);
+  OperatorReply do_not_start();
   OperatorReply calibrate(CalibrationKind kind, TimePoint now);
   OperatorReply calibrate_focus(TimePoint now);
   std::optional<std::string> why_no_calibration() const;
@@ -111,6 +112,7 @@ class Job {
   void go(JobEvent event, TimePoint now);
   void enter(JobState state, TimePoint now);
   void fault(const StopCause& why, TimePoint now);
+  void begin_rest(TimePoint now);
 
   /// Temperature or disk are not as they should be, and the configuration lets the job wait.
   enum class HeldFor { temperature, disk };
@@ -119,6 +121,8 @@ class Job {
   /// Room for so many layers lets a job that is held for the disk go on.
   std::int64_t layers_needed() const;
   void park_after_fault(TimePoint now);
+  void break_off_parking(const std::string& cause, TimePoint now);
+  void leave_to_the_watchdog(const std::string& why);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);
   void write_early_notes();
@@ -155,6 +159,7 @@ class Job {
   bool job_begun_ = false;  ///< and neither done nor aborted
 
   std::uint16_t heartbeat_ = 0;
+  bool heartbeat_withheld_ = false;  ///< from a stop that was not taken until it is acknowledged
   std::optional<bridge::StageStatus> fresh_;  ///< of this tick; nothing when the exchange failed
   std::optional<bridge::StageStatus> last_status_;
   bool silence_logged_ = false;
@@ -163,7 +168,9 @@ class Job {
   TimePoint step_begin_{};
   bool step_command_begun_ = false;
   enum class FaultParking { none, wanted, under_way } fault_parking_ = FaultParking::none;
+  bool fault_parking_only_stops_ = false;  ///< somebody may be near: nothing is moved any more
   bool stop_wanted_ = false;
+  TimePoint stop_wanted_since_{};
   TimePoint fault_park_until_{};
 
   std::future<PreflightFindings> inspection_;

@@ -81,6 +81,7 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
     case OperatorCommand::resume:
       return begin(JobEvent::resume, now);
     case OperatorCommand::pause:
+      if (state_ == JobState::resetting) return do_not_start();
       pause_requested_ = state_ != JobState::pausing;
       return accepted("the step at hand is finished, then the rig is parked");
     case OperatorCommand::abort:
@@ -88,6 +89,7 @@ OperatorReply Job::obey(OperatorCommand command, TimePoint now) {
         give_up_calibration("abort", now);
         return accepted("the calibration is given up");
       }
+      if (state_ == JobState::resetting) return do_not_start();
       go(JobEvent::abort, now);
       return accepted("the rig is stopped and parked");
     case OperatorCommand::acknowledge:
@@ -121,13 +123,17 @@ std::optional<std::string> Job::why_not(OperatorCommand command) const {
     case OperatorCommand::resume:
       return why_not_begin(JobEvent::resume);
     case OperatorCommand::pause:
+      if (state_ == JobState::resetting && start_after_reset_) return std::nullopt;
       if (is_at_rest(state_) || state_ == JobState::resetting || state_ == JobState::aborting ||
           state_ == JobState::finishing) {
         return "the job is " + state + ": there is nothing to pause";
       }
       return std::nullopt;
     case OperatorCommand::abort:
-      if (calibration_ || next_state(state_, JobEvent::abort)) return std::nullopt;
+      if (calibration_ || next_state(state_, JobEvent::abort) ||
+          (state_ == JobState::resetting && start_after_reset_)) {
+        return std::nullopt;
+      }
       return "the job is " + state + ": there is nothing to abort";
     case OperatorCommand::acknowledge:
       return why_not_acknowledge();
@@ -183,6 +189,12 @@ std::optional<std::string> Job::why_not_acknowledge() const {
   if (!at_rest()) return "the rig is still being parked: wait a moment";
   if (!fresh_) return "the controller did not answer just now: try again";
   return std::nullopt;
+}
+
+/// While the latch is reset for a job that was to start.
+OperatorReply Job::do_not_start() {
+  start_after_reset_ = went_on_by_itself_ = false;
+  return accepted("the alarm is acknowledged, and the job does not start");
 }
 
 OperatorReply Job::acknowledge(TimePoint now) {

@@ -122,9 +122,10 @@ std::optional<JobEvent> Job::poll_finishing(TimePoint now) {
   if (volume.finished) return JobEvent::step_done;
   // The layers are safe; a volume that fails does not make the job fail.
   if (!volume.failure.empty() || now - volume_moved_ > settings_.limits.volume_limit) {
-    log_error(
-        "volume",
-        "it is not complete; the layers are safe: biotomy import SAMPLE/layers makes a new one");
+    log_error("volume",
+              "it is not complete; the layers are safe: once the daemon is stopped, biotomy "
+              "rebuild " +
+                  settings_.plan.sample.string() + " makes it anew");
     note("alarm",
          "the volume is not complete: " +
              (volume.failure.empty() ? std::string("it does not grow any more") : volume.failure));
@@ -134,6 +135,7 @@ std::optional<JobEvent> Job::poll_finishing(TimePoint now) {
 }
 
 void Job::begin_resetting(TimePoint now) {
+  heartbeat_withheld_ = false;
   const bool latched = fresh_ && (fresh_->state == bridge::ControllerState::faulted ||
                                   fresh_->interlocks.watchdog_tripped);
   if (!latched) return;

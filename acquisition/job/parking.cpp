@@ -33,7 +33,12 @@ bool Parking::poll(const bridge::StageStatus& status, TimePoint now) {
       if (commands_.stop_now(now)) phase_ = Phase::stopping;
       return false;
     case Phase::stopping:
-      if (commands_.poll(status, now)) phase_ = Phase::wait_for_idle;
+      if (const auto result = commands_.poll(status, now)) {
+        if (*result == bridge::CommandResult::refused) {
+          throw StepFailure("the controller refused to stop", AlarmKind::controller);
+        }
+        phase_ = Phase::wait_for_idle;
+      }
       return false;
     case Phase::wait_for_idle:
       if (status.state == bridge::ControllerState::idle) {

@@ -26,6 +26,9 @@ class Parking {
   /// True when the rig is parked. Throws StepFailure when it cannot be.
   bool poll(const bridge::StageStatus& status, TimePoint now);
 
+  /// The controller has not yet said that it took the stop.
+  bool waits_for_stop() const { return phase_ == Phase::stop || phase_ == Phase::stopping; }
+
   std::string waiting_for() const;
 
  private:

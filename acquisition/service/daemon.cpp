@@ -234,7 +234,8 @@ int run_daemon(const Configuration& configuration) {
                 });
   Job job(configuration.job,
           {stage, *lines, camera, worker, volume_worker, desk, board, devices_camera.get()},
-          real_surroundings(), read_earlier_run(journal));
+          real_surroundings(),
+          take_over_earlier_run(plan.sample, utc_text(std::chrono::system_clock::now())));
   AttemptWatch attempts(journal);
   const auto status = [&] {
     return status_json(*board.look(), {configuration.job.limits, attempts.last()});

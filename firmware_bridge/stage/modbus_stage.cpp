@@ -61,6 +61,23 @@ void check_unscaled(const RegisterMap& map, const std::vector<std::string>& name
   }
 }
 
+/// A counter that ends early would end the run: the heartbeat takes every number of 16 bits, and
+/// the others count for as long as a controller lives.
+void check_wide_enough(const RegisterMap& map) {
+  for (const char* name : {"daemon_heartbeat", "controller_heartbeat"}) {
+    if (map.at(name).type == RegisterType::i16) {
+      throw ConfigurationError(map.source() + ": registers." + name +
+                               ": must hold 0 to 65535: type u16, u32 or i32");
+    }
+  }
+  for (const char* name : {"sequence", "sequence_started", "sequence_finished", "grind_count"}) {
+    if (map.at(name).width() != 2) {
+      throw ConfigurationError(map.source() + ": registers." + name +
+                               ": must have 32 bits: type u32 or i32");
+    }
+  }
+}
+
 /// The one block of the command; a hole or another register in it would be overwritten with 0.
 RegisterBlock command_block(const RegisterMap& map) {
   std::vector<const RegisterEntry*> entries;
@@ -158,6 +175,7 @@ ModbusStage::ModbusStage(RegisterMap map, std::unique_ptr<RegisterBus> bus)
                  {"map_magic", "map_version", "controller_state", "fault_code", "interlocks",
                   "controller_heartbeat", "command_result", "sequence_started", "sequence_finished",
                   "grind_count", "outputs", "daemon_heartbeat", "command", "sequence", "echo"});
+  check_wide_enough(map_);
   command_block_ = command_block(map_);
   identity_blocks_ = plan_reads(map_, kIdentityNames);
   status_blocks_ = plan_reads(map_, kStatusNames);

@@ -39,15 +39,14 @@ bridge::StageIdentity FakeStage::identify() {
 bridge::StageStatus FakeStage::look() {
   if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (!heart_stopped) ++status.controller_heartbeat;
+  if (under_way_ && --exchanges_left_ <= 0) finish();
+  aim();
   return status;
 }
 
 bridge::StageStatus FakeStage::exchange(std::uint16_t) {
   on_exchange();
-  look();
-  if (under_way_ && --exchanges_left_ <= 0) finish();
-  aim();
-  return status;
+  return look();
 }
 
 void FakeStage::issue(std::uint32_t sequence, const bridge::StageCommand& command) {
@@ -62,7 +61,7 @@ void FakeStage::issue(std::uint32_t sequence, const bridge::StageCommand& comman
 }
 
 void FakeStage::begin(std::uint32_t sequence, const bridge::StageCommand& command) {
-  if (sequence == status.sequence_started) return;  // not a new number
+  if (sequence == status.sequence_started || command.action == ignored) return;
   on_command(command);
   executed.push_back({sequence, command});
   status.sequence_started = sequence;

@@ -38,6 +38,7 @@ struct FakeStage : bridge::Stage {
     bool arrived;
   };
   std::optional<LostAnswer> lost_answer;
+  std::optional<bridge::StageAction> ignored;  ///< is answered and starts nothing
   /// Called when a command arrives, before it is begun.
   std::function<void(const bridge::StageCommand&)> on_command = [](const auto&) {};
 

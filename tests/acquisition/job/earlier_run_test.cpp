@@ -96,6 +96,73 @@ TEST_F(CrashedDaemon, GoesOnByItselfWhenConfiguredSo) {
   EXPECT_THAT(bench.events_of_kind("operator"), HasSubstr("goes on by itself after a restart"));
 }
 
+// Nobody is to be overruled by the next daemon's start: neither a person who has looked ...
+TEST_F(CrashedDaemon, DoesNotGoOnAfterAPersonHasAcknowledged) {
+  bench.start_daemon();
+  bench.tick(20);
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  EXPECT_EQ(bench.state(), JobState::idle);
+  bench.start_daemon();
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+// ... nor an alarm that came before the journal was open again.
+TEST_F(CrashedDaemon, DoesNotGoOnAfterAnAlarmInThePreflight) {
+  bench.camera.gone = true;
+  bench.start_daemon();
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("camera"));
+  bench.camera.gone = false;
+  bench.start_daemon();
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+TEST(EarlierRun, WasNotRunningAfterAnAlarmInThePreflightOfAResumedJob) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.say(OperatorCommand::pause);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  bench.camera.gone = true;
+  bench.say(OperatorCommand::resume);
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_FALSE(read_earlier_run(journal(bench)).was_running);
+}
+
+struct LatchThatIsReset : CrashedDaemon {
+  LatchThatIsReset() {
+    bench.stage.exchanges_per_command = 50;
+    bench.start_daemon();
+    EXPECT_TRUE(bench.reach(JobState::resetting));
+  }
+  void expect_that_nothing_moved() {
+    bench.tick(500);
+    EXPECT_TRUE(bench.job->at_rest());
+    EXPECT_EQ(bench.state(), JobState::idle) << bench.alarm();
+    EXPECT_EQ(bench.stage.ground().size(), 3U);
+  }
+};
+
+TEST_F(LatchThatIsReset, StartsNothingInADaemonThatEnds) {
+  EXPECT_TRUE(bench.say(OperatorCommand::shut_down).accepted);
+  expect_that_nothing_moved();
+}
+
+TEST_F(LatchThatIsReset, StartsNothingAfterAPause) {
+  EXPECT_TRUE(bench.say(OperatorCommand::pause).accepted);
+  expect_that_nothing_moved();
+}
+
+TEST_F(LatchThatIsReset, StartsNothingAfterAnAbort) {
+  EXPECT_TRUE(bench.say(OperatorCommand::abort).accepted);
+  expect_that_nothing_moved();
+}
+
 TEST_F(CrashedDaemon, WaitsForAnOperatorWhenNotConfiguredSo) {
   bench.settings.plan.after_restart = JobPlan::AfterRestart::wait;
   bench.start_daemon();

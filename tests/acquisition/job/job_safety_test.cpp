@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/job/job.hpp"
+#include "firmware_bridge/device_error.hpp"
 #include "tests/acquisition/job_bench.hpp"
 
 namespace biotomy::tests {
@@ -10,6 +11,7 @@ namespace {
 using namespace acquisition;
 using bridge::StageAction;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::vector<JobState> kSteps = {
     JobState::recovering, JobState::homing,    JobState::grinding, JobState::retracting,
@@ -262,6 +264,93 @@ TEST(JobSafety, KeepsTheRecordOfAFrameThatAnAlarmOvertook) {
   bench.tick();
   ASSERT_EQ(bench.state(), JobState::faulted);
   EXPECT_EQ(bench.count_rows("attempts", "slug = 'abandoned'"), 1);
+}
+
+/// A controller that answers and does not stop, at the grinding of layer 1.
+struct JobThatIsNotStopped : testing::Test {
+  JobThatIsNotStopped() {
+    bench.start_job();
+    bench.stage.on_exchange = [this] { ++heartbeats; };
+  }
+  void reach_grinding() {
+    bench.stage.on_command = [this](const bridge::StageCommand& command) {
+      if (command.action == StageAction::grind_pass) bench.stage.exchanges_per_command = 1000000;
+    };
+    while (bench.stage.ground().empty()) bench.tick();
+    bench.stage.on_command = [](const auto&) {};
+  }
+  void press_and_release_the_estop() {
+    bench.lines.inputs.estop_pressed = true;
+    bench.tick();
+    bench.lines.inputs.estop_pressed = false;
+  }
+  void expect_that_the_watchdog_is_left_to_stop_it() {
+    bench.tick(200);
+    EXPECT_THAT(bench.alarm(), HasSubstr("the stop is not confirmed"));
+    EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("the stop is not confirmed"));
+    const int before = heartbeats;
+    bench.tick(100);
+    EXPECT_EQ(heartbeats, before);
+  }
+  JobBench bench;
+  int heartbeats = 0;
+};
+
+TEST_F(JobThatIsNotStopped, IsLeftToTheWatchdogWhenTheStopIsNotTaken) {
+  reach_grinding();
+  bench.stage.on_command = [](const bridge::StageCommand& command) {
+    if (command.action != StageAction::stop) return;
+    throw bridge::DeviceError(bridge::DeviceError::Kind::refused, "stage: no such command");
+  };
+  press_and_release_the_estop();
+  expect_that_the_watchdog_is_left_to_stop_it();
+
+  // Which it did; a person has looked.
+  bench.stage.on_command = [](const auto&) {};
+  bench.stage.status.state = bridge::ControllerState::faulted;
+  bench.stage.status.fault_code = 3;
+  bench.stage.status.interlocks.watchdog_tripped = true;
+  bench.tick(10);
+  bench.stage.exchanges_per_command = 2;
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  const int before = heartbeats;
+  bench.tick(10);
+  EXPECT_EQ(heartbeats, before + 10);
+  EXPECT_EQ(bench.state(), JobState::paused) << bench.alarm();
+}
+
+TEST_F(JobThatIsNotStopped, IsLeftToTheWatchdogWhenTheStopIsTakenAndNotStarted) {
+  reach_grinding();
+  bench.stage.ignored = StageAction::stop;
+  press_and_release_the_estop();
+  expect_that_the_watchdog_is_left_to_stop_it();
+}
+
+TEST_F(JobThatIsNotStopped, IsNotLeftToTheWatchdogWhenItStops) {
+  reach_grinding();
+  press_and_release_the_estop();
+  bench.tick(200);
+  EXPECT_THAT(bench.alarm(), Not(HasSubstr("the stop is not confirmed")));
+  const int before = heartbeats;
+  bench.tick(10);
+  EXPECT_EQ(heartbeats, before + 10);
+}
+
+// Only the line sees the door: the controller would go on with its retract.
+TEST_F(JobThatIsNotStopped, IsStoppedAgainWhenTheDoorOpensWhileItIsParked) {
+  reach_grinding();
+  const int retracts = bench.stage.count(StageAction::retract);
+  bench.stage.status.interlocks.homed = false;
+  for (int i = 0; i < 100 && bench.stage.count(StageAction::retract) == retracts; ++i) bench.tick();
+  ASSERT_GT(bench.stage.count(StageAction::retract), retracts);
+  const int stops = bench.stage.count(StageAction::stop);
+  bench.lines.inputs.door_open = true;
+  bench.tick();
+  EXPECT_EQ(bench.stage.count(StageAction::stop), stops + 1);
+  EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("the parking was broken off"));
+  bench.tick(10);
+  EXPECT_EQ(bench.stage.count(StageAction::stop), stops + 1) << "once is enough";
+  EXPECT_TRUE(bench.job->at_rest());
 }
 
 TEST(JobSafety, RefusesAControllerWithoutAWatchdog) {

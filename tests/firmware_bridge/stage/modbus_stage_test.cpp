@@ -236,6 +236,22 @@ TEST_F(ModbusStageTest, RefusesAMapThatScalesACounter) {
               HasSubstr("registers.grind_count: must be an integer with scale 1"));
 }
 
+// As i16 it would end the run after 32767 exchanges.
+TEST_F(ModbusStageTest, RefusesAMapWhoseHeartbeatCannotHoldEveryNumber) {
+  EXPECT_THAT(refusal_of_map(replaced(map_text(), R"(table = "holding", address = 0, type = "u16")",
+                                      R"(table = "holding", address = 0, type = "i16")")),
+              HasSubstr("registers.daemon_heartbeat: must hold 0 to 65535"));
+  EXPECT_THAT(refusal_of_map(replaced(map_text(), R"(table = "input", address = 5, type = "u16")",
+                                      R"(table = "input", address = 5, type = "i16")")),
+              HasSubstr("registers.controller_heartbeat: must hold 0 to 65535"));
+}
+
+TEST_F(ModbusStageTest, RefusesAMapWhoseCommandsAreCountedIn16Bits) {
+  EXPECT_THAT(refusal_of_map(replaced(map_text(), R"(table = "holding", address = 6, type = "u32")",
+                                      R"(table = "holding", address = 6, type = "u16")")),
+              HasSubstr("registers.sequence: must have 32 bits"));
+}
+
 TEST_F(ModbusStageTest, RefusesAMapWhoseCommandCannotBeWritten) {
   EXPECT_THAT(refusal_of_map(replaced(
                   map_text(), R"(address = 1, type = "u16", scale = 1, unit = "", access = "w")",
