@@ -6,6 +6,8 @@
 #include <mutex>
 #include <numeric>
 
+#include <oneapi/tbb/task_arena.h>
+
 #include "reconstruct/store/lru_map.hpp"
 
 namespace biotomy::reconstruct {
@@ -90,7 +92,10 @@ struct BrickCache::State {
       return;
     }
     try {
-      const std::vector<KeptBrick> fetched = fetch(level, work.fetches);
+      // Isolated, as a thread that waits for parts of this may otherwise take up another asker's
+      // work, and wait in there for the promises that it has yet to keep itself.
+      const std::vector<KeptBrick> fetched =
+          tbb::this_task_arena::isolate([&] { return fetch(level, work.fetches); });
       keep(level, work, fetched);
       for (std::size_t i = 0; i < fetched.size(); ++i) {
         found[work.places[i]] = texels_of(fetched[i]);

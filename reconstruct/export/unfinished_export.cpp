@@ -5,12 +5,11 @@
 #include <fstream>
 #include <system_error>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/durable_file.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/store/folder_lock.hpp"
 #include "reconstruct/store/folder_swap.hpp"
 
 namespace biotomy::reconstruct {
@@ -29,8 +28,12 @@ UnfinishedExport::UnfinishedExport(const fs::path& output)
     : output_(without_slash(output)),
       folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
   refuse_if_taken();
-  remove_folder(folder_);  // of an export that was killed
-  create_folders_durably(folder_);
+  create_folders_durably(output_.parent_path());
+  lock_ = make_locked_folder(
+      folder_, output_.string() + ": another export of it is at work; wait for its end");
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    remove_folder(entry.path());  // of an export that was killed
+  }
 }
 
 UnfinishedExport::~UnfinishedExport() {
@@ -51,8 +54,7 @@ void UnfinishedExport::refuse_if_taken() const {
 
 void UnfinishedExport::finish() {
   // An export is thousands of small files: one sync of their file system is quicker than theirs.
-  const FileDescriptor folder(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder.is_open() || ::syncfs(folder.get()) != 0) {
+  if (::syncfs(lock_.get()) != 0) {
     throw SampleError(folder_.string() + ": cannot write it to the disk: " + std::strerror(errno));
   }
   std::error_code error;

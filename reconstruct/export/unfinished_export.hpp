@@ -3,14 +3,16 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "reconstruct/store/file_descriptor.hpp"
+
 namespace biotomy::reconstruct {
 
 /// A folder that is written beside its final name, `.NAME.partial`, and gets it when it is
 /// complete; removed when it does not come to that.
 class UnfinishedExport {
  public:
-  /// Throws SampleError when `output` is there and not an empty folder, or the folder cannot be
-  /// made.
+  /// Throws SampleError when `output` is there and not an empty folder, when another program
+  /// exports to it, or when the folder cannot be made.
   explicit UnfinishedExport(const std::filesystem::path& output);
   ~UnfinishedExport();
   UnfinishedExport(const UnfinishedExport&) = delete;
@@ -26,6 +28,7 @@ class UnfinishedExport {
 
   std::filesystem::path output_;
   std::filesystem::path folder_;
+  FileDescriptor lock_;
   bool finished_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,13 +58,7 @@ cv::Mat decode(std::span<const std::byte> bytes, Format format) {
   return png ? decode_png(bytes) : decode_jpeg(bytes);
 }
 
-}  // namespace
-
-bool is_image_name(const fs::path& path) {
-  return format_of_name(path) != Format::unknown;
-}
-
-cv::Mat read_image_file(const fs::path& path) {
+cv::Mat read_of_any_size(const fs::path& path) {
   const Format format = format_of_name(path);
   if (format == Format::tiff) {
     return read_tiff_image(path);
@@ -76,8 +71,23 @@ cv::Mat read_image_file(const fs::path& path) {
     return decode(bytes, format);
   } catch (const SampleError& error) {
     throw SampleError(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+bool is_image_name(const fs::path& path) {
+  return format_of_name(path) != Format::unknown;
+}
+
+cv::Mat read_image_file(const fs::path& path) {
+  constexpr const char* kNoMemory = ": there is no memory for the picture";
+  try {
+    return read_of_any_size(path);
   } catch (const cv::Exception&) {
-    throw SampleError(path.string() + ": there is no memory for the picture");
+    throw SampleError(path.string() + kNoMemory);
+  } catch (const std::bad_alloc&) {
+    throw SampleError(path.string() + kNoMemory);
   }
 }
 

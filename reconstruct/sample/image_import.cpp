@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <future>
 #include <mutex>
@@ -17,6 +16,7 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/geometry/spacing.hpp"
 #include "reconstruct/sample/partial_import.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/layer_band.hpp"
@@ -45,8 +45,8 @@ Vector3 spacing_of(const std::variant<VoxelSpacing, StackSize>& scale, const Gri
     spacing = std::get<VoxelSpacing>(scale).um;
   }
   for (const double each : {spacing.x, spacing.y, spacing.z}) {
-    if (!std::isfinite(each) || each <= 0.0) {
-      throw InvalidRequest("spacings and sizes must be numbers of micrometres above 0");
+    if (!is_spacing(each)) {
+      throw InvalidRequest("the distance between voxels must be from 1e-6 to 1e9 micrometres");
     }
   }
   return spacing;

@@ -8,14 +8,13 @@
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/import_request.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
 #include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/folder_lock.hpp"
 #include "reconstruct/store/folder_swap.hpp"
 
 namespace biotomy::reconstruct {
@@ -37,13 +36,6 @@ std::string file_of(const SampleFolder& sample, std::int64_t layer) {
   return sample.layer_path(layer).lexically_relative(sample.path()).string();
 }
 
-bool is_same_folder(const FileDescriptor& opened, const fs::path& path) {
-  struct stat a {};
-  struct stat b {};
-  return ::fstat(opened.get(), &a) == 0 && ::stat(path.c_str(), &b) == 0 && a.st_ino == b.st_ino &&
-         a.st_dev == b.st_dev;
-}
-
 }  // namespace
 
 PartialImport::PartialImport(const fs::path& output, const SampleDescription& description,
@@ -51,7 +43,8 @@ PartialImport::PartialImport(const fs::path& output, const SampleDescription& de
     : output_(without_slash(output)),
       folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
   refuse_if_taken();
-  lock();
+  lock_ = make_locked_folder(
+      folder_, output_.string() + ": another import of it is at work; wait for its end");
   if (restart || !take_up(asked)) {
     try {
       begin(description, asked);
@@ -76,30 +69,6 @@ void PartialImport::refuse_if_taken() const {
     }
     throw SampleError(output_.string() +
                       ": is there already and not empty; choose another name or remove it");
-  }
-}
-
-void PartialImport::lock() {
-  for (;;) {
-    std::error_code error;
-    fs::create_directory(folder_, error);
-    if (error) {
-      throw SampleError(folder_.string() + ": cannot create this folder: " + error.message());
-    }
-    lock_ = FileDescriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!lock_.is_open() && errno == ENOENT) {
-      continue;  // another import was finished just now
-    }
-    if (!lock_.is_open()) {
-      throw SampleError(folder_.string() + ": cannot open it: " + std::strerror(errno));
-    }
-    if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
-      throw SampleError(output_.string() + ": another import of it is at work; wait for its end");
-    }
-    if (is_same_folder(lock_, folder_)) {
-      sync_folder(folder_.parent_path());
-      return;
-    }
   }
 }
 

@@ -50,7 +50,6 @@ class PartialImport {
 
  private:
   void refuse_if_taken() const;
-  void lock();
   bool take_up(const nlohmann::json& asked);
   void begin(const SampleDescription& description, const nlohmann::json& asked);
   std::filesystem::path hashes_path() const { return folder_ / "layers.sha256"; }

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <opencv2/core.hpp>
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -20,6 +19,7 @@
 #include "reconstruct/section/level_choice.hpp"
 #include "reconstruct/section/tile_plan.hpp"
 #include "reconstruct/section/tile_sampler.hpp"
+#include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -201,15 +201,12 @@ class PictureSampler {
       }
     }
     std::vector<PictureRow> rows(static_cast<std::size_t>(strip.last_row - strip.first_row));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), kTileRows),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          rows[i] = PictureRow(source_, from.level, grid_,
-                                               strip.first_row + static_cast<int>(i));
-                        }
-                      });
+    // Whole loops, also when the strip that is fetched meanwhile cannot be read.
+    whole_loop(rows.size(), [&](std::size_t i) {
+      rows[i] = PictureRow(source_, from.level, grid_, strip.first_row + static_cast<int>(i));
+    });
     std::vector<std::optional<TilePlan>> plans(tiles.size());
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+    whole_loop(tiles.size(), [&](std::size_t i) {
       const auto start = Clock::now();
       const Tile& each = tiles[i];
       plans[i].emplace(

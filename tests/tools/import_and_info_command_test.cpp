@@ -85,7 +85,9 @@ TEST_F(Commands, ImportWithoutAScaleIsWrongUsage) {
                CLI::ParseError);
   EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1"}), CLI::ParseError);
   EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1,a"}), CLI::ParseError);
-  EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", "1,1,0"}), InvalidRequest);
+  for (const char* impossible : {"1,1,0", "1e-7,1,1", "1e10,1,1"}) {
+    EXPECT_THROW(run({"import", images_, "-o", sample_, "--spacing", impossible}), InvalidRequest);
+  }
 }
 
 TEST_F(Commands, ImportWithAnUnknownCodecIsWrongUsageBeforeAnyImageIsRead) {

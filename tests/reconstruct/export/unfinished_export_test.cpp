@@ -44,6 +44,14 @@ TEST_F(AnUnfinishedExport, BeginsAnewAfterOneThatWasKilled) {
   EXPECT_THAT(names_in(output_), IsEmpty());
 }
 
+TEST_F(AnUnfinishedExport, IsNotTakenFromWhoIsAtWorkOnIt) {
+  const UnfinishedExport unfinished(output_);
+  write_plainly(unfinished.folder() / "a", "x", 1);
+  EXPECT_THAT(message_of<SampleError>([&] { UnfinishedExport second(output_); }),
+              testing::HasSubstr("another export of it is at work"));
+  EXPECT_THAT(names_in(unfinished.folder()), ElementsAre("a"));
+}
+
 TEST_F(AnUnfinishedExport, TouchesNothingThatIsThere) {
   std::filesystem::create_directory(output_);
   write_text(output_ / "precious", "x");
