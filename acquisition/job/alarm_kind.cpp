@@ -109,13 +109,13 @@ const char* advice(AlarmKind kind) {
              "counter and depth with what the cause says. Set right what is wrong, then "
              "acknowledge and resume.";
     case AlarmKind::preflight:
-      return "Set right what the cause names, then acknowledge and start again.";
+      return "Set right what the cause names, then acknowledge and resume.";
     case AlarmKind::camera:
       return "Look at the camera, its cable and the lamp. Then acknowledge and resume: the layer "
              "is photographed again, never ground again.";
     case AlarmKind::focus:
       return "Look whether lens, face and light are clean and as they were. Then acknowledge and "
-             "resume, or calibrate the focus first.";
+             "resume; or acknowledge, abort and calibrate the focus, which says what to set.";
     case AlarmKind::storage:
       return "Look at the disk: is it full, read-only or broken? Then acknowledge and resume: "
              "what was not stored is photographed again.";

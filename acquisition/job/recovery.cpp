@@ -52,8 +52,9 @@ class Comparison {
     if (controller_.ground_to > first + limits_.position_tolerance) {
       return disagreement() << "the controller has ground to " << controller_.ground_to.value
                             << " µm, deeper than layer 1 at " << first.value
-                            << " µm: set first_face_um below it, or, with a new block, reset the "
-                               "controller's ground position";
+                            << " µm: set first_face_um to that or more (feed grows into the "
+                               "block), or, with a new block, reset the controller's ground "
+                               "position";
     }
     return Continuation{.layer = 1, .ground = false, .finished_grind = std::nullopt};
   }

@@ -178,6 +178,13 @@ bool can_be_started(const std::string& program) {
   return false;
 }
 
+/// A job needs none to be recorded, but whoever asks for one should not learn it at its end.
+void check_calibration_folder(const fs::path& folder, RigFindings& findings) {
+  if (const auto complaint = folder_complaint(existing_part(fs::absolute(folder)))) {
+    findings.note("calibration", "none can be recorded in " + folder.string() + ": " + *complaint);
+  }
+}
+
 void check_notifications(const NotifyConfiguration& notify, RigFindings& findings) {
   if (!notify.is_on()) {
     findings.note(kNotifications,
@@ -219,6 +226,7 @@ void check_address(const ServiceConfiguration& service, RigFindings& findings) {
 
 void check_service(const Configuration& configuration, RigFindings& findings) {
   check_token(configuration.service.token_file, findings);
+  check_calibration_folder(configuration.job.calibration.folder, findings);
   check_notifications(configuration.notify, findings);
 }
 

@@ -11,7 +11,7 @@ void check_records(const JobSettings& job, const AnsweredRig& rig, const Surroun
 /// That page and API can be where they are to be; of a daemon that does not run.
 void check_address(const ServiceConfiguration& service, RigFindings& findings);
 
-/// The token file, and who is told when a person is needed.
+/// The token file, the folder of calibrations, and who is told when a person is needed.
 void check_service(const Configuration& configuration, RigFindings& findings);
 
 }  // namespace biotomy::acquisition

@@ -1,4 +1,5 @@
-// What is installed beside the programs: held against systemd's own tools, where they are.
+// What is installed, and beside the programs: held against Debian's and systemd's own tools, where
+// they are.
 #include <fstream>
 #include <string>
 
@@ -73,6 +74,54 @@ TEST_F(Packaging, MakesTheUserAndTheGroupsThatTheUnitNames) {
     EXPECT_THAT(groups, testing::ContainsRegex("(^|\n)" + group + ":[^\n]*:biotomy\n"));
     EXPECT_THAT(unit_text, testing::ContainsRegex("SupplementaryGroups=[^\n]*" + group));
   }
+}
+
+struct DebianPackages : Packaging {
+  void SetUp() override {
+    if (!is_executable("/usr/bin/dpkg-shlibdeps")) GTEST_SKIP() << "dpkg-dev is not installed";
+    const Outcome outcome =
+        run({BIOTOMY_CPACK, "--config", BIOTOMY_BUILD "/CPackConfig.cmake", "-B", folder.path()},
+            folder.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output << outcome.errors;
+  }
+
+  /// The file of the package of that name, which is the start of the file's.
+  std::filesystem::path package(const std::string& name) const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      const std::string file = entry.path().filename();
+      if (file.starts_with(name + "_") && file.ends_with(".deb")) return entry.path();
+    }
+    ADD_FAILURE() << "no package " << name;
+    return {};
+  }
+
+  std::string told_by_dpkg(const std::string& option, const std::string& name) const {
+    const Outcome outcome = run({"/usr/bin/dpkg-deb", option, package(name)}, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return outcome.output;
+  }
+};
+
+TEST_F(DebianPackages, HoldTheProgramsApartFromTheLibraryAndNameWhatBothNeed) {
+  const std::string programs = told_by_dpkg("--contents", "biotomy");
+  for (const std::string file :
+       {"/usr/bin/biotomy\n", "/usr/bin/biotomyd\n", "/usr/bin/biotomy-sim\n",
+        "/usr/lib/systemd/system/biotomyd.service\n", "/usr/lib/sysusers.d/biotomy.conf\n",
+        "/usr/lib/tmpfiles.d/biotomy.conf\n", "/usr/lib/udev/rules.d/60-biotomy.rules\n",
+        "/usr/share/biotomy/register_map.toml\n", "/usr/share/doc/biotomy/docs/operation.md\n"}) {
+    EXPECT_THAT(programs, HasSubstr(file));
+  }
+  EXPECT_THAT(programs, testing::Not(HasSubstr(".hpp")));
+  const std::string library = told_by_dpkg("--contents", "libbiotomy-dev");
+  EXPECT_THAT(library, HasSubstr("libbiotomy_reconstruct.a\n"));
+  EXPECT_THAT(library, HasSubstr("reconstruct/section/section.hpp\n"));
+  EXPECT_THAT(library, testing::Not(HasSubstr("/usr/bin")));
+
+  const std::string needed = told_by_dpkg("--field", "biotomy");
+  for (const std::string each : {"libmodbus", "libgpiod", "libcamera", "libblosc"}) {
+    EXPECT_THAT(needed, testing::ContainsRegex("\nDepends:[^\n]*" + each));
+  }
+  EXPECT_THAT(told_by_dpkg("--field", "libbiotomy-dev"), HasSubstr("libopencv-dev"));
 }
 
 }  // namespace

@@ -74,9 +74,8 @@ void RunWatch::watch_interruption(const JobStatus& status) {
     interruption_open_ = true;
     tell(NoticeKind::interrupted, false,
          "the daemon ended while the rig worked (" + *interrupted_ +
-             ") and was started again: look at the rig, then start the job, if it has not gone on "
-             "by "
-             "itself");
+             ") and was started again: look at the rig, then acknowledge and start the job, if it "
+             "has not gone on by itself");
   }
   if (interruption_open_ && is_running(status.state)) {
     interruption_open_ = false;

@@ -259,6 +259,14 @@ TEST_F(RigCheck, LooksAtTheTokenWithoutMakingOne) {
   EXPECT_THAT(check().all(), Contains(wrong("token", "less than 16 characters")));
 }
 
+TEST_F(RigCheck, SaysThatCalibrationsCannotBeRecorded) {
+  bench.settings.calibration.folder = bench.folder / "calibration";
+  EXPECT_THAT(check().all(), Not(Contains(finding(Kind::note, "calibration", "none can be"))));
+  std::ofstream(bench.folder / "file") << "in the way";
+  bench.settings.calibration.folder = bench.folder / "file" / "calibration";
+  EXPECT_THAT(check().all(), Contains(finding(Kind::note, "calibration", "none can be recorded")));
+}
+
 TEST_F(RigCheck, SaysThatThePageCannotBeWhereItIsToBe) {
   EXPECT_THAT(check().all(), Contains(finding(Kind::good, "page", "http://127.0.0.1:0")));
   configuration.service.host = "192.0.2.1";  // of no computer (RFC 5737)
