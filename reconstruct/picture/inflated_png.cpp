@@ -44,6 +44,7 @@ struct CompressedPixels {
 std::optional<CompressedPixels> compressed_pixels(std::span<const std::byte> file,
                                                   std::size_t position) {
   CompressedPixels pixels;
+  pixels.stream.reserve(file.size());
   for (auto chunk = png_chunk_at(file, position); chunk;
        position += chunk->whole.size(), chunk = png_chunk_at(file, position)) {
     if (chunk->is("IDAT")) {

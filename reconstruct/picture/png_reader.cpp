@@ -26,7 +26,8 @@ constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
 /// need a destructor; this has it.
 class Reader {
  public:
-  explicit Reader(std::vector<std::span<const std::byte>> parts) : parts_(std::move(parts)) {
+  Reader(std::vector<std::span<const std::byte>> parts, bool is_checked)
+      : parts_(std::move(parts)), is_checked_(is_checked) {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
   }
@@ -41,7 +42,9 @@ class Reader {
     png_set_read_fn(png_, this, read);
     png_set_user_limits(png_, kLongestSide, kLongestSide);
     png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
-    png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
+    if (is_checked_) {
+      png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
+    }
     png_read_info(png_, info_);
     png_set_expand_gray_1_2_4_to_8(png_);
     png_set_palette_to_rgb(png_);
@@ -96,6 +99,7 @@ class Reader {
 
   std::vector<std::span<const std::byte>> parts_;
   std::size_t part_ = 0;
+  bool is_checked_;  ///< the sum of the pixels, by whoever inflated them
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   std::array<char, 128> message_{};
@@ -105,7 +109,7 @@ class Reader {
 
 cv::Mat decode_png(std::span<const std::byte> file) {
   const std::optional<InflatedPng> inflated = InflatedPng::of(file);
-  Reader picture(inflated ? inflated->parts() : std::vector{file});
+  Reader picture(inflated ? inflated->parts() : std::vector{file}, inflated.has_value());
   if (!picture.read_header()) {
     throw SampleError(std::string("cannot be decoded: ") + picture.message());
   }

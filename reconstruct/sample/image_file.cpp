@@ -58,7 +58,7 @@ cv::Mat decode(std::span<const std::byte> bytes, Format format) {
   return png ? decode_png(bytes) : decode_jpeg(bytes);
 }
 
-cv::Mat read_of_any_size(const fs::path& path) {
+cv::Mat read_by_format(const fs::path& path) {
   const Format format = format_of_name(path);
   if (format == Format::tiff) {
     return read_tiff_image(path);
@@ -83,7 +83,7 @@ bool is_image_name(const fs::path& path) {
 cv::Mat read_image_file(const fs::path& path) {
   constexpr const char* kNoMemory = ": there is no memory for the picture";
   try {
-    return read_of_any_size(path);
+    return read_by_format(path);
   } catch (const cv::Exception&) {
     throw SampleError(path.string() + kNoMemory);
   } catch (const std::bad_alloc&) {

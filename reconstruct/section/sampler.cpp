@@ -201,11 +201,11 @@ class PictureSampler {
       }
     }
     std::vector<PictureRow> rows(static_cast<std::size_t>(strip.last_row - strip.first_row));
-    // Whole loops, also when the strip that is fetched meanwhile cannot be read.
-    whole_loop(rows.size(), [&](std::size_t i) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i] = PictureRow(source_, from.level, grid_, strip.first_row + static_cast<int>(i));
-    });
+    }
     std::vector<std::optional<TilePlan>> plans(tiles.size());
+    // A whole loop, also when the strip that is fetched meanwhile cannot be read.
     whole_loop(tiles.size(), [&](std::size_t i) {
       const auto start = Clock::now();
       const Tile& each = tiles[i];

@@ -4,9 +4,11 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <libdeflate.h>
 #include <png.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/png_chunk.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 
@@ -70,6 +72,28 @@ TEST(PngReader, GivesBackColoursToTheBit) {
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
     EXPECT_TRUE(same_pixels(decode_png(encoded(bgr)), rgb));
   }
+}
+
+/// The CRC of the chunk that begins at `place` as its data now are.
+void mend_crc(std::vector<std::byte>& file, std::size_t place) {
+  const PngChunk chunk = png_chunk_at(file, place).value();
+  const std::uint32_t crc = libdeflate_crc32(0, chunk.covered().data(), chunk.covered().size());
+  for (std::size_t i = 0; i < 4; ++i) {
+    file[place + chunk.whole.size() - 1 - i] = std::byte(crc >> 8 * i & 0xFF);
+  }
+}
+
+// The chunks' CRCs are right: only the sum of the pixels themselves tells.
+TEST(PngReader, RefusesPixelsWhoseSumIsWrong) {
+  std::vector<std::byte> file = encoded(test_image(20, 10, CV_8UC3));
+  std::size_t place = kPngSignature.size();
+  while (!png_chunk_at(file, place).value().is("IDAT")) {
+    place += png_chunk_at(file, place)->whole.size();
+  }
+  const std::size_t end_of_data = place + png_chunk_at(file, place)->whole.size() - 4;
+  file[end_of_data - 1] ^= std::byte{1};
+  mend_crc(file, place);
+  EXPECT_THAT(message_of<SampleError>([&] { decode_png(file); }), HasSubstr("cannot be decoded"));
 }
 
 TEST(PngReader, MakesGreyRgb) {
