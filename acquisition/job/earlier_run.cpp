@@ -3,6 +3,8 @@
 #include <string>
 
 #include "acquisition/job/job_states.hpp"
+#include "acquisition/log.hpp"
+#include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/layer_journal.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
@@ -32,14 +34,18 @@ EarlierRun read_earlier_run(const std::filesystem::path& journal) {
 
 EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std::string& utc) {
   const std::filesystem::path path = sample / reconstruct::SampleFolder::kJournalName;
-  const EarlierRun earlier = read_earlier_run(path);
-  if (earlier.was_running) {
+  EarlierRun earlier = read_earlier_run(path);
+  if (!earlier.was_running) return earlier;
+  try {
     LayerJournal(path).record_event(
         {.kind = "state",
          .state = to_string(JobState::faulted),
          .layer = 0,
          .text = "the daemon ended while the job ran, and was started again",
          .at = utc});
+  } catch (const JournalError& error) {
+    log_error("journal", std::string("no job goes on by itself: ") + error.what());
+    earlier.was_running = false;
   }
   return earlier;
 }

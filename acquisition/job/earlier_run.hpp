@@ -17,7 +17,8 @@ EarlierRun read_earlier_run(const std::filesystem::path& journal);
 
 /// The same for a daemon that starts, and has the sample's lock; it writes down that it is latched.
 /// Whatever comes before the job runs again, an alarm or a person's word, the daemon after this one
-/// finds a job that was not running. `utc` as in JobEventRow. Throws JournalError.
+/// finds a job that was not running. Where that cannot be written, as on a full disk, nothing goes
+/// on by itself now. `utc` as in JobEventRow. Throws JournalError.
 EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std::string& utc);
 
 }  // namespace biotomy::acquisition

@@ -125,16 +125,6 @@ void Job::look_at_lines(TimePoint now) {
   }
 }
 
-/// Of a rig that is parked after a fault: what moves stops here, too.
-void Job::break_off_parking(const std::string& cause, TimePoint now) {
-  if (std::exchange(fault_parking_only_stops_, true)) return;
-  stop_wanted_ = !commands_.stop_now(now);
-  stop_wanted_since_ = now;
-  fault_parking_ = FaultParking::wanted;
-  log_error(kComponent, "the parking was broken off: " + cause);
-  note("alarm", "the parking was broken off: " + cause);
-}
-
 void Job::exchange(TimePoint now) {
   fresh_.reset();
   try {
@@ -335,37 +325,6 @@ void Job::begin_rest(TimePoint now) {
   if (starts) go(JobEvent::start, now);
 }
 
-void Job::fault(const StopCause& why, TimePoint now) {
-  // First of all. Whoever else gave the controller commands, this one's number is a new one.
-  if (last_status_) {
-    commands_.raise_to(std::max(last_status_->sequence_started, last_status_->sequence_finished));
-  }
-  stop_wanted_ = !commands_.stop_now(now);
-  stop_wanted_since_ = now;
-  const std::string& cause = why.sentence;
-  log_error(kComponent, std::string("stopped while ") + to_string(state_) + ": " + cause);
-  alarm_ = Alarm{cause, utc_text(surroundings_.wall_clock()), state_, why.kind};
-  note("alarm", cause);
-  pause_cause_.clear();
-  state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
-  start_up_latch_ = false;
-  temperature_alarm_ = false;
-  may_go_on_by_itself_ = false;
-  start_after_reset_ = false;
-  if (reset_answer_) answers_.push_back({std::move(*reset_answer_), {false, cause}});
-  reset_answer_.reset();
-  step_begin_ = now;
-  time_left_.interrupted();
-  pause_requested_ = false;
-  inspection_ = {};
-  if (calibration_) end_calibration(CalibrationStatus::Progress::failed, cause);
-  fault_parking_ = FaultParking::wanted;
-  fault_parking_only_stops_ = Supervision::line_cause(inputs_).has_value();
-  fault_park_until_ = now + settings_.limits.park_limit;
-  if (cycle_) cycle_->abandon(cause);
-  lamp_and_tower(true);
-}
-
 void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
   note("alarm", "held: " + cause);
@@ -375,56 +334,6 @@ void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   } catch (const std::exception& error) {
     fault({alarm_kind_of(error, state_), error.what()}, now);
   }
-}
-
-void Job::halt(TimePoint now) {
-  if (at_rest()) return;
-  fault({AlarmKind::ending, "the daemon was stopped before the rig was at rest"}, now);
-}
-
-void Job::park_after_fault(TimePoint now) {
-  if (now > fault_park_until_) {
-    stop_wanted_ = false;
-    fault_parking_ = FaultParking::none;
-  }
-  if (!fresh_) return;
-  if (stop_wanted_) stop_wanted_ = !commands_.stop_now(now);
-  if (stop_wanted_ && now - stop_wanted_since_ > settings_.limits.command_start) {
-    leave_to_the_watchdog("the controller does not take it");
-  }
-  if (stop_wanted_ || fault_parking_ == FaultParking::none) return;
-
-  // On an e-stop, an open door or a fault of its own the controller retracts by itself, and takes
-  // no command: then there is nothing more to do. What only our own lines have seen it does not
-  // know of; then the stop is all that it is told, and it must be seen to take it.
-  const bool controller_acts = fresh_->state == bridge::ControllerState::faulted ||
-                               fresh_->interlocks.estop_pressed || fresh_->interlocks.door_open;
-  try {
-    if (fault_parking_ == FaultParking::wanted) {
-      parking_.begin(Parking::From::stopped, now);
-      fault_parking_ = FaultParking::under_way;
-    }
-    if (controller_acts || (fault_parking_only_stops_ && !parking_.waits_for_stop()) ||
-        parking_.poll(*fresh_, now)) {
-      fault_parking_ = FaultParking::none;
-    }
-  } catch (const StepFailure& failure) {
-    log_error(kComponent, std::string("the rig could not be parked: ") + failure.what());
-    fault_parking_ = FaultParking::none;
-    if (parking_.waits_for_stop()) leave_to_the_watchdog(failure.what());
-  }
-}
-
-/// The wheel may still turn. A controller that hears no heartbeat any more stops it by itself.
-void Job::leave_to_the_watchdog(const std::string& why) {
-  if (std::exchange(heartbeat_withheld_, true)) return;
-  const std::string cause = "the stop is not confirmed (" + why +
-                            "): the controller's watchdog is left to stop the wheel; look whether "
-                            "it stands";
-  log_error(kComponent, cause);
-  note("alarm", cause);
-  alarm_->cause += "; " + cause;
-  alarm_->since = utc_text(surroundings_.wall_clock());
 }
 
 void Job::lamp_and_tower(bool tower) {

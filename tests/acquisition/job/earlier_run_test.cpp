@@ -122,6 +122,16 @@ TEST_F(CrashedDaemon, DoesNotGoOnAfterAnAlarmInThePreflight) {
   EXPECT_EQ(bench.stage.ground().size(), 3U);
 }
 
+// What must be written first cannot be: the daemon starts all the same, for the page and the alarm.
+TEST_F(CrashedDaemon, DoesNotGoOnWhenTheJournalTakesNothing) {
+  SQLite::Database(journal(bench).string(), SQLite::OPEN_READWRITE)
+      .exec("CREATE TRIGGER full BEFORE INSERT ON events BEGIN SELECT RAISE(FAIL, 'full'); END");
+  EXPECT_NO_THROW(bench.start_daemon());
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
 TEST(EarlierRun, WasNotRunningAfterAnAlarmInThePreflightOfAResumedJob) {
   JobBench bench;
   bench.start_job();
