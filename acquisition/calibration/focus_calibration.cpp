@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -12,14 +11,13 @@
 #include "acquisition/job/focus_actuators.hpp"
 #include "acquisition/job/preflight.hpp"
 #include "acquisition/job/preflight_complaints.hpp"
+#include "acquisition/job/stage_checks.hpp"
 
 namespace biotomy::acquisition {
 namespace {
 
-constexpr double kWheelStandsRpm = 5.0;
-
 std::optional<std::string> wheel_complaint(const bridge::StageStatus& status) {
-  if (std::abs(status.spindle_rpm) <= kWheelStandsRpm) return std::nullopt;
+  if (wheel_stands(status)) return std::nullopt;
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), "the wheel turns at %.0f rpm and must stand still",
                 status.spindle_rpm);

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "acquisition/job/parking.hpp"
+#include "acquisition/job/stage_checks.hpp"
 
 namespace biotomy::acquisition {
 

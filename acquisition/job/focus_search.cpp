@@ -1,10 +1,12 @@
 #include "acquisition/job/focus_search.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <utility>
 
 #include "acquisition/job/capture.hpp"
+#include "acquisition/log.hpp"
 #include "acquisition/quality/sharpness_comparison.hpp"
 
 namespace biotomy::acquisition {
@@ -41,7 +43,7 @@ bool FocusSearch::ask_next(TimePoint now) {
 }
 
 bool FocusSearch::poll(const bridge::StageStatus& status, TimePoint now) {
-  if (!autofocus_.next()) return true;
+  if (has_ended()) return true;
   if (measured_.valid()) {
     if (!is_ready(measured_)) return false;
     take_measures();
@@ -68,6 +70,19 @@ void FocusSearch::take_measures() {
   std::shared_ptr<const FrameMeasures> measures = measured_.get();
   points_.push_back({measured_at_, sharpness(*measures)});
   autofocus_.measured(std::move(measures));
+}
+
+std::function<std::optional<FocusRow::Point>()> FocusSearch::break_off() {
+  autofocus_.give_up("it was broken off");
+  if (!measured_.valid()) return [] { return std::nullopt; };
+  return [at = measured_at_, measured = measured_.share()]() -> std::optional<FocusRow::Point> {
+    try {
+      return FocusRow::Point{at, sharpness(*measured.get())};
+    } catch (const std::exception& error) {
+      log_warning("focus", std::string("the last frame of the search failed: ") + error.what());
+      return std::nullopt;
+    }
+  };
 }
 
 std::optional<FaceLean> FocusSearch::lean() const {

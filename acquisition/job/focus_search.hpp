@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -41,6 +42,11 @@ class FocusSearch {
   bridge::Micrometres stands_at() const { return stands_at_; }
   const std::vector<FocusRow::Point>& points() const { return points_; }
   bool waits_for_frame() const { return measured_.valid(); }
+  bool has_ended() const { return !autofocus_.next(); }
+
+  /// Breaks the search off. Gives what the frame under way will measure, if one is: it waits for it,
+  /// and gives nothing when the frame could not be taken.
+  std::function<std::optional<FocusRow::Point>()> break_off();
 
   /// After the end, as Autofocus gives them. The actuator stands where the focus was found.
   const std::optional<Autofocus::Found>& found() const { return autofocus_.found(); }

@@ -86,6 +86,19 @@ bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
   return false;
 }
 
+// The worker keeps the order of posting: by then the frame under way was taken, or was not.
+void FocusStep::abandon(const std::string& why) {
+  if (phase_ != Phase::search || search_->has_ended()) return;
+  FocusRow row{.layer = layer_,
+                     .why = std::string(why_) + "; broken off: " + why,
+                     .column = focus_,
+                     .points = search_->points()};
+  keeper_.post([row, last_point = search_->break_off()](SampleRecords& records) mutable {
+    if (const auto last = last_point()) row.points.push_back(*last);
+    if (!row.points.empty()) records.record_focus(row);
+  });
+}
+
 void FocusStep::end_search(TimePoint now) {
   stands_at_ = search_->stands_at();
   report();

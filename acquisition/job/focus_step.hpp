@@ -37,6 +37,9 @@ class FocusStep {
   /// True when the face is in focus. Throws StepFailure, and what the devices throw.
   bool poll(const bridge::StageStatus& status, TimePoint now);
 
+  /// The step is over before its end. A search that is under way still gets its record.
+  void abandon(const std::string& why);
+
   std::string waiting_for() const;
 
   /// Once the face is in focus, "focus_change": how far that is from where it was expected, in µm

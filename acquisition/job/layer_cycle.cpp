@@ -7,7 +7,6 @@
 
 #include "acquisition/job/capture.hpp"
 #include "acquisition/job/focus_actuators.hpp"
-#include "acquisition/job/parking.hpp"
 #include "acquisition/log.hpp"
 
 namespace biotomy::acquisition {
@@ -34,6 +33,7 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
       parts_(parts),
       focus_memory_(settings.focus, settings.plan.layer_thickness),
       grind_(settings, parts.commands, parts.keeper),
+      retraction_(parts.commands, settings.limits),
       focus_(settings,
              make_focus_actuator(settings, start.column, start.camera,
                                  {parts.commands, parts.camera, parts.worker}),
@@ -63,7 +63,7 @@ void LayerCycle::begin(JobState step, const bridge::StageStatus& status, TimePoi
       grind_.begin(layer_, status);
       break;
     case JobState::retracting:
-      parts_.commands.begin({.action = StageAction::retract}, now);
+      retraction_.begin(now);
       break;
     case JobState::clearing:
       parts_.commands.begin({.action = StageAction::clear_face,
@@ -106,9 +106,7 @@ std::optional<JobEvent> LayerCycle::poll(JobState step, const bridge::StageStatu
     case JobState::grinding:
       return done_if(grind_.poll(status, now));
     case JobState::retracting:
-      if (!parts_.commands.poll_done(status, now)) return std::nullopt;
-      check_position("traverse", status.traverse, {0.0}, settings_.limits);
-      return JobEvent::step_done;
+      return done_if(retraction_.poll(status, now));
     case JobState::clearing:
       return done_if(parts_.commands.poll_done(status, now));
     case JobState::settling:
@@ -262,6 +260,7 @@ void LayerCycle::abandon(const std::string& why) {
     frame.assessment.reason = "the step was abandoned: " + why;
     records.record_rejected(frame);
   };
+  focus_.abandon(why);
   if (best_rejected_) reject(*std::exchange(best_rejected_, nullptr));
   if (capture_.valid()) {
     // The worker keeps the order of posting: by then the capture has ended, well or not.
@@ -291,7 +290,7 @@ std::string LayerCycle::waiting_for(JobState step) const {
     case JobState::grinding:
       return grind_.waiting_for();
     case JobState::retracting:
-      return "waits for the wheel to be retracted and the block parked";
+      return retraction_.waiting_for();
     case JobState::clearing:
       return "waits for the air blast";
     case JobState::settling:

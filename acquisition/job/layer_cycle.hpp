@@ -13,6 +13,7 @@
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/judged_attempt.hpp"
+#include "acquisition/job/retraction.hpp"
 #include "acquisition/job/stage_commands.hpp"
 #include "acquisition/job/worker.hpp"
 #include "acquisition/records/recalled_faces.hpp"
@@ -95,6 +96,7 @@ class LayerCycle {
   FrameExpectation expectation_;
   FocusMemory focus_memory_;
   GrindStep grind_;
+  Retraction retraction_;
   FocusStep focus_;
 
   std::int64_t layer_;

@@ -1,13 +1,9 @@
 #include "acquisition/job/parking.hpp"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
-
 namespace biotomy::acquisition {
 
 Parking::Parking(StageCommands& commands, const SafetyLimits& limits)
-    : commands_(commands), limits_(limits) {}
+    : commands_(commands), limits_(limits), retraction_(commands, limits) {}
 
 void Parking::begin(From from, TimePoint now) {
   switch (from) {
@@ -43,14 +39,11 @@ bool Parking::poll(const bridge::StageStatus& status, TimePoint now) {
     case Phase::wait_for_idle:
       if (status.state == bridge::ControllerState::idle) {
         phase_ = Phase::retract;
-        commands_.begin({.action = bridge::StageAction::retract}, now);
+        retraction_.begin(now);
       }
       return false;
     case Phase::retract:
-      if (commands_.poll_done(status, now)) {
-        check_position("traverse", status.traverse, {0.0}, limits_);
-        phase_ = Phase::parked;
-      }
+      if (retraction_.poll(status, now)) phase_ = Phase::parked;
       return phase_ == Phase::parked;
     case Phase::parked:
       return true;
@@ -66,21 +59,11 @@ std::string Parking::waiting_for() const {
     case Phase::wait_for_idle:
       return "waits for the controller to come to rest";
     case Phase::retract:
-      return "waits for the wheel to be retracted";
+      return retraction_.waiting_for();
     case Phase::parked:
       return "";
   }
   return "";
-}
-
-void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,
-                    const SafetyLimits& limits) {
-  if (std::abs((actual - expected).value) <= limits.position_tolerance.value) return;
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(),
-                "the %s is at %.1f µm and should be at %.1f µm: look for what holds it", axis,
-                actual.value, expected.value);
-  throw StepFailure(text.data(), AlarmKind::motion);
 }
 
 }  // namespace biotomy::acquisition

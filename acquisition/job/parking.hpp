@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "acquisition/job/retraction.hpp"
 #include "acquisition/job/safety_limits.hpp"
 #include "acquisition/job/stage_commands.hpp"
 #include "acquisition/job/step_failure.hpp"
@@ -10,7 +11,7 @@
 namespace biotomy::acquisition {
 
 /// Brings the rig to rest: stops what moves, waits until the controller is idle, retracts the wheel
-/// and parks the block.
+/// until it stands, and parks the block.
 class Parking {
  public:
   Parking(StageCommands& commands, const SafetyLimits& limits);
@@ -36,12 +37,9 @@ class Parking {
 
   StageCommands& commands_;
   SafetyLimits limits_;
+  Retraction retraction_;
   Phase phase_ = Phase::parked;
   TimePoint deadline_{};
 };
-
-/// Throws StepFailure when the axis is not where it should be.
-void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,
-                    const SafetyLimits& limits);
 
 }  // namespace biotomy::acquisition

@@ -72,7 +72,7 @@ struct AttemptHistory {
 /// One search for the focus.
 struct FocusRow {
   std::int64_t layer = 0;
-  std::string why;
+  std::string why;               ///< and what broke it off, if something did
   bridge::Micrometres column{};  ///< the plane in focus, or where it was expected
   double sharpness = 0.0;        ///< there
   bool found = false;
@@ -80,7 +80,8 @@ struct FocusRow {
     bridge::Micrometres column{};
     double sharpness = 0.0;
   };
-  std::vector<Point> points;       ///< every frame that was taken, the confirming one last
+  std::vector<Point> points;       ///< every frame that was taken; of a focus that was found
+                                   ///< the confirming one last
   std::optional<FaceLean> lean{};  ///< where enough of the face shows detail
 };
 

@@ -69,14 +69,22 @@ void SampleRecords::record_event(const JobEventRow& event) {
   journal_.record_event(event);
 }
 
+// The frame has its record also when its picture cannot be kept.
 void SampleRecords::record_rejected(const JudgedFrame& frame) {
   AttemptRow row = row_of(frame);
-  if (!frame.frame.image.empty()) {
-    const std::filesystem::path file =
-        rejected_.add(frame.layer, frame.attempt, frame.assessment.slug, frame.frame.image);
-    row.file = std::filesystem::relative(file, sample_.path()).string();
+  std::exception_ptr failure;
+  try {
+    if (!frame.frame.image.empty()) {
+      const std::filesystem::path file =
+          rejected_.add(frame.layer, frame.attempt, frame.assessment.slug, frame.frame.image);
+      row.file = std::filesystem::relative(file, sample_.path()).string();
+    }
+  } catch (const std::exception& error) {
+    row.assessment.reason += std::string("; no picture of it is kept: ") + error.what();
+    failure = std::current_exception();
   }
   journal_.record_attempt(row);
+  if (failure) std::rethrow_exception(failure);
 }
 
 reconstruct::PublishLayer SampleRecords::prepare_layer(const JudgedFrame& frame) const {

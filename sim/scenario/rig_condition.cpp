@@ -85,6 +85,7 @@ struct Effect {
     condition.machine.extra_load_percent += fault.load_percent;
   }
   void operator()(const SpindleWontStart&) const { condition.machine.spindle_blocked = true; }
+  void operator()(const SpindleWontStop&) const { condition.machine.spindle_runs_on = true; }
   void operator()(const GrindRemovesNothing&) const {
     condition.machine.wheel_short_um = std::numeric_limits<double>::infinity();
   }

@@ -147,6 +147,10 @@ struct SpindleWontStart {
   static constexpr const char* kName = "spindle_wont_start";
   static constexpr const char* kMeaning = "it has no torque: it does not start, or runs down";
 };
+struct SpindleWontStop {
+  static constexpr const char* kName = "spindle_wont_stop";
+  static constexpr const char* kMeaning = "once it turns it turns on, whatever it is told";
+};
 struct GrindRemovesNothing {
   static constexpr const char* kName = "grind_removes_nothing";
   static constexpr const char* kMeaning = "the wheel does not touch";
@@ -177,8 +181,8 @@ using RigFault =
                  CameraHangs, CameraVanishes, CameraGivesOldFrame, CameraTearsFrame,
                  CameraGivesBlackFrame, CameraGivesWrongSize, ControllerPowerCut,
                  ControllerHeartbeatStops, ModbusSilent, LinesSilent, AxisStalls, AxisCreeps,
-                 AxisReadsWrong, SpindleOverloaded, SpindleWontStart, GrindRemovesNothing,
-                 GrindRemovesTooLittle, DebrisSticks, VibrationFromOutside, CoolerFails>;
+                 AxisReadsWrong, SpindleOverloaded, SpindleWontStart, SpindleWontStop,
+                 GrindRemovesNothing, GrindRemovesTooLittle, DebrisSticks, VibrationFromOutside, CoolerFails>;
 
 /// The word by which scenarios call it.
 const char* name_of(const RigFault& fault);

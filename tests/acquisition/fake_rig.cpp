@@ -81,6 +81,7 @@ void FakeStage::finish() {
   status.sequence_finished = done.sequence;
   status.last_result = CommandResult::done;
   status.state = ControllerState::idle;
+  if (!wheel_runs_on) status.spindle_rpm = done.command.spindle_rpm;
   switch (done.command.action) {
     case StageAction::home:
       status.interlocks.homed = true;

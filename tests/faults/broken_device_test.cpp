@@ -83,6 +83,8 @@ TEST(BrokenStage, StopsTheWheelAndLeavesARunThatGoesOnToItsEnd) {
            "grind_finished", 0.1, "faulted", "feed"},
           {"spindle does not start", "fault = \"spindle_wont_start\"", "grind_finished", 0.1,
            "faulted", "a drive.*spindle"},
+          {"spindle does not stop", "fault = \"spindle_wont_stop\"", "grind_started", 2.0, "faulted",
+           "a drive.*spindle"},
           {"spindle is overloaded", "fault = \"spindle_overload\"\nload = 200", "grind_started",
            2.0, "faulted", "spindle"},
           {"Modbus is silent", "fault = \"modbus_silent\"", "grind_started", 0.5, "faulted",

@@ -20,7 +20,7 @@ RigPlan device_plan(int layers);
 /// The sample of a run that nothing disturbed, of as many layers as any of the runs have. It is
 /// made once, beside the first of them.
 const std::filesystem::path& undisturbed_device_sample();
-inline constexpr int kMostDeviceLayers = 44;
+inline constexpr int kMostDeviceLayers = 48;
 
 /// A job at work, whose devices can be broken.
 class DeviceRun {

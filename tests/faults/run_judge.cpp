@@ -319,8 +319,8 @@ class Judge {
     }
   }
 
-  /// A search that was broken off is not recorded; and at a kill the last frame is lost, whatever
-  /// it was of.
+  /// A search that a kill broke off is not recorded, and its last frame is lost, whatever it was of;
+  /// a camera that fails may keep the last frame of a search for itself.
   bool was_lost_by_a_stop(std::size_t place) const {
     const WitnessedFrame& frame = witness_.frames[place];
     std::string next_recorded;
@@ -331,12 +331,13 @@ class Judge {
     const std::string stop = *std::lower_bound(stops_.begin(), stops_.end(), frame.at);
     const bool is_last =
         place + 1 == witness_.frames.size() || witness_.frames[place + 1].at > stop;
-    if (!is_last) return frame.column_moved_next;
     const auto between = [&](const std::string& at) {
       return at >= frame.at && (next_recorded.empty() || at <= next_recorded);
     };
-    return std::any_of(run_.kills.begin(), run_.kills.end(),
-                       [&](const Killed& kill) { return between(kill.at); }) ||
+    const bool killed = std::any_of(run_.kills.begin(), run_.kills.end(),
+                                    [&](const Killed& kill) { return between(kill.at); });
+    if (!is_last) return killed && frame.column_moved_next;
+    return killed ||
            std::any_of(journal_.alarms.begin(), journal_.alarms.end(),
                        [&](const RunJournal::Alarm& alarm) {
                          return between(alarm.at) && alarm.state == "focusing";

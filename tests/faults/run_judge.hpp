@@ -34,15 +34,13 @@ struct FinishedRun {
 /// - every layer was ground by exactly one whole pass, in order. A pass that was broken off by a
 ///   kill, a fault or an alarm is followed by a whole one to the same target;
 /// - no pass began before the layer above was committed: by the clock, and, whatever the clock
-/// says,
-///   by what the journal held at each kill. Every pass was in the journal before it began;
+///   says, by what the journal held at each kill. Every pass was in the journal before it began;
 /// - every layer is committed and its file is there with its hash;
 /// - its photograph was taken of its own face, by the lamp's light, and shows what an undisturbed
 ///   run's layer shows, by far better than that layer's neighbours do;
 /// - every frame that the twin took, unless the camera streams, is in the journal: as an attempt,
-/// as a point of a focus
-///   search, or as a trial of the camera. A search that was broken off leaves no record, and a kill
-///   loses the frame on its way.
+///   as a point of a focus search, or as a trial of the camera. A kill loses the frame on its way,
+///   and the record of the search that it breaks off.
 std::vector<std::string> judge(const FinishedRun& run,
                                const std::filesystem::path& undisturbed_sample);
 

@@ -277,6 +277,19 @@ TEST_F(RunJudge, TellsTheLastFrameOfASearchFromTheOneAtItsPlaceThatAKillLost) {
   EXPECT_THAT(verdict(), IsEmpty());
 }
 
+TEST_F(RunJudge, FindsFramesOfASearchThatAnAlarmBrokeOff) {
+  run.grind(1);
+  for (const double column_um : {640.0, 650.0, 660.0}) {
+    run.move_column();
+    run.take_frame(1, column_um);
+  }
+  run.alarm("focusing");
+  run.take_frame(1);
+  run.commit(1);
+  run.make_from(2);
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of "), HasSubstr("frame 2 of ")));
+}
+
 TEST_F(RunJudge, FindsASearchThatMeasuredWhatWasNotTaken) {
   run.grind(1);
   run.take_frame(1, 640.0);

@@ -279,6 +279,20 @@ TEST(Controller, ReportsASpindleThatDoesNotStart) {
   EXPECT_EQ(bench.mechanics.block().deepest_um(), 900);
 }
 
+TEST(Controller, ReportsASpindleThatDoesNotStop) {
+  Bench bench;
+  bench.complete(Action::home);
+  EXPECT_EQ(bench.complete(Action::grind_pass, 1000), CommandResult::done);
+  bench.mechanics.set_defects({.spindle_runs_on = true});
+  EXPECT_EQ(bench.complete(Action::retract), CommandResult::aborted);
+  EXPECT_EQ(bench.controller.status().fault, Fault::drive);
+  bench.run(10s);
+  EXPECT_GT(bench.mechanics.spindle_rpm(), 0);
+  bench.mechanics.set_defects({});
+  bench.run(10s);
+  EXPECT_EQ(bench.mechanics.spindle_rpm(), 0);
+}
+
 TEST(Controller, ReportsAnAxisBeyondItsLimitAndBringsItBack) {
   Bench bench;
   bench.complete(Action::home);

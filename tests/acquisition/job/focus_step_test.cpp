@@ -106,6 +106,39 @@ TEST(FocusStep, StopsAJobWhoseFirstSearchFindsNothing) {
   EXPECT_LE(bench.camera.captures, 1 + 9 * 6) << "a search is bounded";
 }
 
+/// How many frames the records of broken-off searches hold, with that reason.
+std::int64_t frames_of_broken_searches(const JobBench& bench, const std::string& reason) {
+  std::int64_t frames = 0;
+  for (int points = 1; points < 60; ++points) {
+    frames += points * bench.count_rows("focus_sweeps", "found = 0 AND why LIKE '%" + reason +
+                                                            "%' AND json_array_length(points) = " +
+                                                            std::to_string(points));
+  }
+  return frames;
+}
+
+TEST(FocusStep, RecordsTheFramesOfASearchThatIsBrokenOff) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::focusing)) << bench.alarm();
+  const int before = bench.camera.captures;
+  while (bench.camera.captures < before + 4) bench.tick();
+  bench.stage.status.interlocks.door_open = true;  // the fourth frame is not yet looked at
+  ASSERT_TRUE(bench.reach(JobState::faulted, 2));
+  EXPECT_EQ(frames_of_broken_searches(bench, "broken off: the door is open"), 4);
+}
+
+TEST(FocusStep, RecordsTheFramesOfASearchWhoseCameraFails) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::focusing)) << bench.alarm();
+  const int before = bench.camera.captures;
+  while (bench.camera.captures < before + 3) bench.tick();
+  bench.camera.gone = true;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_EQ(frames_of_broken_searches(bench, "broken off: camera: gone"), 3);
+}
+
 TEST(FocusStep, GivesUpASearchThatTakesTooLong) {
   JobBench bench;
   bench.settings.focus.time_limit = std::chrono::milliseconds(1);

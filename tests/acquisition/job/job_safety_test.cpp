@@ -126,6 +126,42 @@ TEST(JobSafety, StopsWhenTheColumnSinksBetweenTwoMoves) {
   EXPECT_THAT(bench.alarm(), HasSubstr("the column moves by itself"));
 }
 
+TEST(JobSafety, StopsWhenTheWheelTurnsOnAfterItIsRetracted) {
+  JobBench bench;
+  bench.settings.limits.retract_limit = bench.settings.limits.park_limit =
+      std::chrono::milliseconds(2000);
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::retracting));
+  bench.stage.wheel_runs_on = true;
+  const int captures = bench.camera.captures;
+  ASSERT_TRUE(bench.reach(JobState::faulted, 300));
+  EXPECT_THAT(bench.alarm(), HasSubstr("waits for the wheel to stand"));
+  EXPECT_THAT(bench.alarm(), HasSubstr("turns at 1500 rpm"));
+  EXPECT_EQ(bench.camera.captures, captures);
+}
+
+TEST(JobSafety, WaitsForAWheelThatRunsDown) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::retracting));
+  bench.stage.wheel_runs_on = true;
+  for (int i = 0; i < 20; ++i) bench.tick();
+  EXPECT_EQ(bench.state(), JobState::retracting);
+  bench.stage.status.spindle_rpm = 0.0;
+  bench.stage.wheel_runs_on = false;
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
+TEST(JobSafety, StopsWhenTheWheelStartsByItself) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::assessing));
+  bench.stage.status.spindle_rpm = 50.0;
+  ASSERT_TRUE(bench.reach(JobState::faulted, 3));
+  EXPECT_THAT(bench.alarm(), HasSubstr("the wheel turns by itself"));
+}
+
 TEST(JobSafety, StopsForAnOverloadedSpindleAndForOneThatShakes) {
   expect_stop(
       [](JobBench& bench) {

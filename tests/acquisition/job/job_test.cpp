@@ -1,5 +1,8 @@
 #include "acquisition/job/job.hpp"
 
+#include <filesystem>
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -209,6 +212,20 @@ TEST(Job, ClimbsTheLadderUntilAFrameIsGood) {
   EXPECT_EQ(bench.count_rows("focus_sweeps", "layer = 2"), 1);  // the second rung focuses again
   EXPECT_TRUE(
       std::filesystem::exists(bench.settings.plan.sample / "rejected/000002-a01-too-dark.jpg"));
+}
+
+TEST(Job, RecordsARejectedFrameWhosePictureCannotBeKept) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
+  const auto rejected = bench.settings.plan.sample / "rejected";
+  std::filesystem::remove_all(rejected);
+  std::ofstream(rejected) << "no folder";
+  bench.camera.black_frames = 1;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'too-dark' AND file = '' AND "
+                                         "reason LIKE '%no picture of it is kept%'"),
+            1);
 }
 
 TEST(Job, PausesWhenNoFrameIsGoodEnoughAndKeepsEveryRecord) {

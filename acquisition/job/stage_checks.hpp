@@ -1,0 +1,15 @@
+#pragma once
+
+#include "acquisition/job/safety_limits.hpp"
+#include "firmware_bridge/stage/stage.hpp"
+
+namespace biotomy::acquisition {
+
+/// Whether the wheel stands; an encoder may show a little of one that does.
+bool wheel_stands(const bridge::StageStatus& status);
+
+/// Throws StepFailure when the axis is not where it should be.
+void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,
+                    const SafetyLimits& limits);
+
+}  // namespace biotomy::acquisition
