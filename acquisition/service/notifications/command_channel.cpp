@@ -14,6 +14,7 @@
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
+#include <sysexits.h>
 #include <unistd.h>
 
 #include "firmware_bridge/wire/unique_fd.hpp"
@@ -164,7 +165,9 @@ void CommandChannel::deliver(const std::string& message, std::chrono::millisecon
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   const std::string end = WIFEXITED(status) ? "exit code " + std::to_string(WEXITSTATUS(status))
                                             : "signal " + std::to_string(WTERMSIG(status));
-  throw DeliveryError(command_[0] + " failed, " + end + words_of(errors));
+  const std::string failure = command_[0] + " failed, " + end + words_of(errors);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == EX_DATAERR) throw MessageRefused(failure);
+  throw DeliveryError(failure);
 }
 
 }  // namespace biotomy::acquisition

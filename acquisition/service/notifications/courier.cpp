@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -24,7 +25,9 @@ struct Courier::State {
   mutable std::mutex mutex;
   std::condition_variable_any changed;
   MessageQueue queue;
-  bool fresh = false;  ///< a message came since the last attempt
+  bool fresh = false;                        ///< a message came since the last attempt
+  std::set<std::uint64_t> refused;           ///< numbers of messages that wait
+  std::chrono::milliseconds grown_pause{0};  ///< of the failures since the last delivery
   std::uint64_t delivered = 0;
   std::uint64_t failed_attempts = 0;
   std::jthread thread;
@@ -40,28 +43,48 @@ struct Courier::State {
       fresh = false;
       const MessageQueue::Message message = *queue.front();
       lock.unlock();
-      const std::optional<std::string> failure = attempt(message.text, stop);
+      const Outcome outcome = attempt(message.text, stop);
       lock.lock();
-      if (!failure) {
+      if (outcome.failure) {
+        ++failed_attempts;
+        pause = pause_after(message.number, outcome);
+        log_warning("notify", channel->name() + ": " + *outcome.failure + "; again in " +
+                                  std::to_string(grown_pause.count()) + " ms");
+      } else {
         ++delivered;
-        pause = std::chrono::milliseconds(0);
+        refused.erase(message.number);
         queue.pop(message.number);
-        continue;
+        pause = grown_pause = std::chrono::milliseconds(0);
       }
-      ++failed_attempts;
-      pause = std::clamp(2 * pause, settings.first_retry, settings.longest_retry);
-      log_warning("notify", channel->name() + ": " + *failure + "; again in " +
-                                std::to_string(pause.count()) + " ms");
     }
   }
 
-  /// Why it failed; nothing when the message is delivered.
-  std::optional<std::string> attempt(const std::string& text, const std::stop_token& stop) {
+  struct Outcome {
+    std::optional<std::string> failure;  ///< why; nothing when the message is delivered
+    bool is_refused = false;             ///< this message, which says nothing of others
+  };
+
+  /// Of a refused message none, if there is one behind it that was not refused.
+  std::chrono::milliseconds pause_after(std::uint64_t number, const Outcome& outcome) {
+    if (outcome.is_refused) {
+      refused.insert(number);
+      queue.postpone(number);
+      if (!refused.contains(queue.front()->number)) return std::chrono::milliseconds(0);
+    }
+    grown_pause = std::clamp(2 * grown_pause, settings.first_retry, settings.longest_retry);
+    return grown_pause;
+  }
+
+  Outcome attempt(const std::string& text, const std::stop_token& stop) {
     try {
       channel->deliver(text, settings.time_out, stop);
-      return std::nullopt;
+      return {};
+    } catch (const MessageRefused& error) {
+      return {error.what(), true};
+    } catch (const DeliveryError& error) {
+      return {error.what(), false};
     } catch (const std::exception& error) {
-      return error.what();
+      return {error.what(), true};
     }
   }
 };

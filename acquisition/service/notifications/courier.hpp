@@ -18,9 +18,9 @@ struct CourierSettings {
 };
 
 /// Takes messages to one channel, from a thread of its own: one after the other, each again until
-/// it is delivered, with pauses that grow and that a new message ends. What is not delivered yet
-/// lies in a folder and is taken up by the next courier; a message may so arrive twice, never not
-/// at all.
+/// it is delivered, with pauses that grow and that a new message ends. One that is refused is put
+/// behind the others, so that it holds none up. What is not delivered yet lies in a folder and is
+/// taken up by the next courier; a message may so arrive twice, never not at all.
 class Courier {
  public:
   /// Throws SampleError when the folder cannot be made or read.

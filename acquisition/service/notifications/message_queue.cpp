@@ -62,9 +62,12 @@ MessageQueue::MessageQueue(std::filesystem::path folder, std::size_t keep)
 
 void MessageQueue::push(const std::string& text) {
   while (messages_.size() >= keep_) {
+    const auto oldest =
+        std::min_element(messages_.begin(), messages_.end(),
+                         [](const Message& a, const Message& b) { return a.number < b.number; });
     log_error(kComponent, "too many messages wait in " + folder_.string() +
-                              "; the oldest is given up: " + messages_.front().text);
-    pop(messages_.front().number);
+                              "; the oldest is given up: " + oldest->text);
+    pop(oldest->number);
     ++dropped_;
   }
   const std::uint64_t number = next_number_++;
@@ -80,10 +83,18 @@ std::optional<MessageQueue::Message> MessageQueue::front() const {
   return messages_.empty() ? std::nullopt : std::optional(messages_.front());
 }
 
+std::deque<MessageQueue::Message>::iterator MessageQueue::find(std::uint64_t number) {
+  return std::find_if(messages_.begin(), messages_.end(),
+                      [number](const Message& message) { return message.number == number; });
+}
+
+void MessageQueue::postpone(std::uint64_t number) {
+  const auto found = find(number);
+  if (found != messages_.end()) std::rotate(found, found + 1, messages_.end());
+}
+
 void MessageQueue::pop(std::uint64_t number) {
-  const auto found =
-      std::find_if(messages_.begin(), messages_.end(),
-                   [number](const Message& message) { return message.number == number; });
+  const auto found = find(number);
   if (found == messages_.end()) return;
   messages_.erase(found);
   remove(number);

@@ -27,6 +27,9 @@ class MessageQueue {
 
   std::optional<Message> front() const;
 
+  /// Puts the message with this number behind the others, until the queue is opened anew.
+  void postpone(std::uint64_t number);
+
   /// Lets go of the message with this number, if it is still there.
   void pop(std::uint64_t number);
 
@@ -37,6 +40,7 @@ class MessageQueue {
 
  private:
   std::filesystem::path file_of(std::uint64_t number) const;
+  std::deque<Message>::iterator find(std::uint64_t number);
   void remove(std::uint64_t number) const;
 
   std::filesystem::path folder_;

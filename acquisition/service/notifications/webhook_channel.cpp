@@ -45,6 +45,14 @@ class CutOff {
   std::jthread thread_;
 };
 
+/// Statuses by which a server says that it is the content that it does not take (RFC 9110).
+bool is_about_the_content(int status) {
+  constexpr int kBadRequest = 400;
+  constexpr int kContentTooLarge = 413;
+  constexpr int kUnprocessableContent = 422;
+  return status == kBadRequest || status == kContentTooLarge || status == kUnprocessableContent;
+}
+
 std::string first_line(std::string text) {
   text.erase(std::min({text.find_first_of("\r\n"), text.size(), kLongestReason}));
   return text;
@@ -110,8 +118,10 @@ void WebhookChannel::deliver(const std::string& message, std::chrono::millisecon
     throw DeliveryError(url_.origin + " does not answer: " + httplib::to_string(result.error()));
   }
   if (status < 200 || status > 299) {
-    throw DeliveryError(url_.origin + " answers with status " + std::to_string(status) + ": " +
-                        first_line(words));
+    const std::string answer =
+        url_.origin + " answers with status " + std::to_string(status) + ": " + first_line(words);
+    if (is_about_the_content(status)) throw MessageRefused(answer);
+    throw DeliveryError(answer);
   }
 }
 

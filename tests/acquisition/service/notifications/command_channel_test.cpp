@@ -51,6 +51,13 @@ TEST_F(CommandChannelTest, GivesTheMessageOnStandardInput) {
   EXPECT_EQ(content_of(out), message());
 }
 
+TEST_F(CommandChannelTest, TakesExitCode65ForARefusalOfTheMessage) {
+  CommandChannel refusing = script("exit 65");
+  EXPECT_THAT(delivering(refusing), testing::Throws<MessageRefused>());
+  CommandChannel failing = script("exit 64");
+  EXPECT_THAT(delivering(failing), testing::Not(testing::Throws<MessageRefused>()));
+}
+
 TEST_F(CommandChannelTest, GivesTheMessageInTheEnvironmentToo) {
   ::setenv("NOTIFY_SOCKET", "/nowhere", 1);
   CommandChannel channel = script(

@@ -71,6 +71,32 @@ TEST_F(CourierTest, TriesAtOnceWhenANewMessageComes) {
   EXPECT_THAT(log->delivered, ElementsAre("1", "2"));
 }
 
+TEST_F(CourierTest, LetsOthersPassAMessageThatIsRefused) {
+  settings.first_retry = settings.longest_retry = std::chrono::hours(1);
+  log->refused = "1";
+  auto messenger = courier();
+  messenger->take("1");
+  messenger->take("2");
+  ASSERT_TRUE(log->await_delivered(1));
+  messenger->take("3");
+  ASSERT_TRUE(log->await_delivered(2));
+  messenger.reset();
+  EXPECT_THAT(log->delivered, ElementsAre("2", "3"));
+  EXPECT_EQ(courier()->figures().waiting, 1U);
+}
+
+TEST_F(CourierTest, TriesARefusedMessageAgainAfterAPause) {
+  log->refused = "1";
+  const auto messenger = courier();
+  messenger->take("1");
+  ASSERT_TRUE(log->await_attempts(3));
+  {
+    const std::scoped_lock lock(log->mutex);
+    log->refused.clear();
+  }
+  ASSERT_TRUE(log->await_delivered(1));
+}
+
 TEST_F(CourierTest, EndsAtOnceWhenAnAttemptHangs) {
   log->hangs = true;
   {

@@ -16,6 +16,7 @@ struct ChannelLog {
   std::condition_variable changed;
   int failures_to_come = 0;  ///< so many attempts fail first
   bool hangs = false;        ///< each attempt lasts until it is told to stop
+  std::string refused;       ///< this message is never taken
   int attempts = 0;
   std::vector<std::string> delivered;
 
@@ -47,6 +48,7 @@ class FakeChannel final : public acquisition::Channel {
       stopped.wait(lock, stop, [] { return false; });
       throw acquisition::DeliveryError("stopped");
     }
+    if (message == log_->refused) throw acquisition::MessageRefused("that is no message");
     if (log_->failures_to_come > 0) {
       --log_->failures_to_come;
       throw acquisition::DeliveryError("nobody is at home");

@@ -58,6 +58,21 @@ TEST_F(MessageQueueTest, LetsTheOldestGoWhenItIsFull) {
   EXPECT_EQ(files(), 3U);
 }
 
+TEST_F(MessageQueueTest, PutsAMessageBehindTheOthersUntilItIsOpenedAnew) {
+  {
+    MessageQueue queue(path, 3);
+    for (int i = 1; i <= 3; ++i) queue.push(message(i));
+    queue.postpone(queue.front()->number);
+    EXPECT_EQ(queue.front()->text, message(2));
+    queue.push(message(4));  // the oldest goes, wherever it stands
+    queue.pop(queue.front()->number);
+    EXPECT_EQ(queue.front()->text, message(3));
+    queue.postpone(queue.front()->number);
+    EXPECT_EQ(queue.front()->text, message(4));
+  }
+  EXPECT_EQ(MessageQueue(path, 3).front()->text, message(3));
+}
+
 TEST_F(MessageQueueTest, DoesNotMindAMessageThatHasGoneMeanwhile) {
   MessageQueue queue(path, 1);
   queue.push(message(1));

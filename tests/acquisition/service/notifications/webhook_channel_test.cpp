@@ -44,6 +44,9 @@ class HookServer {
     server_.Post("/elsewhere", [](const httplib::Request&, httplib::Response& response) {
       response.set_redirect("/hook");
     });
+    server_.Post("/picky", [](const httplib::Request&, httplib::Response& response) {
+      response.status = 422;
+    });
     server_.Post("/silent", [](const httplib::Request&, httplib::Response& response) {
       response.status = 204;
     });
@@ -127,6 +130,15 @@ TEST_F(WebhookChannelTest, SaysWhatTheServerAnsweredButNotWhereTheHookIs) {
   WebhookChannel channel(*split_url(server.origin() + "/hook"), "");
   EXPECT_THAT(delivering(channel), ThrowsMessage<DeliveryError>(AllOf(
                                        HasSubstr("status 503: no room"), Not(HasSubstr("/hook")))));
+}
+
+TEST_F(WebhookChannelTest, TellsARefusedMessageFromAServerThatFails) {
+  HookServer server;
+  server.fail(1);
+  WebhookChannel failing(*split_url(server.origin() + "/hook"), "");
+  EXPECT_THAT(delivering(failing), Not(testing::Throws<MessageRefused>()));
+  WebhookChannel refusing(*split_url(server.origin() + "/picky"), "");
+  EXPECT_THAT(delivering(refusing), testing::Throws<MessageRefused>());
 }
 
 TEST_F(WebhookChannelTest, FollowsNoRedirection) {
