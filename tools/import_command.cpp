@@ -10,6 +10,7 @@
 #include "reconstruct/sample/image_import.hpp"
 #include "reconstruct/sample/image_sequence.hpp"
 #include "reconstruct/store/codecs.hpp"
+#include "reconstruct/utf8.hpp"
 #include "tools/command.hpp"
 #include "tools/freed_memory.hpp"
 #include "tools/interruption.hpp"
@@ -65,13 +66,23 @@ std::string name_of(const Options& options) {
     return options.name;
   }
   const fs::path output = fs::absolute(options.output).lexically_normal();
-  return (output.has_filename() ? output : output.parent_path()).filename().string();
+  return reconstruct::utf8_text(
+      (output.has_filename() ? output : output.parent_path()).filename().string());
+}
+
+void check_text(const char* option, const std::string& text) {
+  if (!reconstruct::is_utf8(text)) {
+    throw reconstruct::InvalidRequest(std::string(option) +
+                                      ": must be UTF-8; set the terminal's encoding to it");
+  }
 }
 
 reconstruct::ImportRequest request_of(const Options& options) {
   if (options.spacing.empty() == options.size.empty()) {
     throw reconstruct::InvalidRequest("give either --spacing X,Y,Z or --size X,Y,Z");
   }
+  check_text("--name", options.name);
+  check_text("--notes", options.notes);
   reconstruct::ImportRequest request;
   request.output = options.output;
   request.name = name_of(options);

@@ -49,6 +49,11 @@ ordered_json attempts_json(const std::vector<AttemptNote>& attempts) {
   return list;
 }
 
+/// A file's name may be in any encoding, and an error names a file.
+std::string text_of(const ordered_json& entry) {
+  return entry.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
 
 QcReport::QcReport(std::ostream& out, bool json) : out_(out), json_(json) {
@@ -73,7 +78,7 @@ void QcReport::add_unreadable(const std::string& name, std::optional<std::int64_
     if (layer) entry["layer"] = *layer;
     entry["verdict"] = kUnreadable;
     entry["reason"] = why;
-    out_ << entry.dump();
+    out_ << text_of(entry);
   } else {
     out_ << name << "  " << kUnreadable << ": " << why << '\n';
   }
@@ -113,7 +118,7 @@ void QcReport::print_json(const JudgedImage& image) {
   entry["reason"] = assessment.reason;
   entry["metrics"] = metrics_json(assessment.metrics);
   if (image.layer) entry["journal"] = attempts_json(image.attempts);
-  out_ << entry.dump();
+  out_ << text_of(entry);
 }
 
 void QcReport::finish() {

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reconstruct/utf8.hpp"
+
 namespace biotomy::tools {
 namespace {
 
@@ -59,7 +61,7 @@ void print_sweep_json(std::ostream& out, const std::vector<fs::path>& files,
   ordered_json frames = ordered_json::array();
   for (std::size_t f = 0; f < files.size(); ++f) {
     const SweepFrame& frame = ranking.frames[f];
-    frames.push_back({{"file", files[f].string()},
+    frames.push_back({{"file", reconstruct::utf8_text(files[f].string())},
                       {"focus", frame.focus},
                       {"error", frame.error},
                       {"sharpest_tiles", frame.sharpest_tiles},
@@ -68,7 +70,7 @@ void print_sweep_json(std::ostream& out, const std::vector<fs::path>& files,
   }
   const ordered_json document = {
       {"frames", frames},
-      {"sharpest", files[ranking.sharpest].filename().string()},
+      {"sharpest", reconstruct::utf8_text(files[ranking.sharpest].filename().string())},
       {"sharpest_index", ranking.sharpest},
       {"certain", ranking.certain},
       {"peak_index", ranking.peak ? ordered_json(*ranking.peak) : ordered_json(nullptr)},

@@ -19,7 +19,10 @@ void write_calibration_file(const std::filesystem::path& folder, const std::stri
                             const nlohmann::ordered_json& record) {
   try {
     reconstruct::create_folders_durably(folder);
-    reconstruct::write_durably(folder / name, record.dump(2) + "\n");
+    // A camera may name itself in any encoding.
+    reconstruct::write_durably(
+        folder / name,
+        record.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } catch (const reconstruct::SampleError& error) {
     throw CalibrationError(std::string("the calibration was not stored: ") + error.what());
   }

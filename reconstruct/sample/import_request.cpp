@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/utf8.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -20,7 +21,7 @@ json image_record(const fs::path& path) {
   if (::stat(path.c_str(), &status) != 0) {
     throw SampleError(path.string() + ": is gone");
   }
-  return {{"path", fs::absolute(path).lexically_normal().string()},
+  return {{"path", utf8_text(fs::absolute(path).lexically_normal().string())},
           {"bytes", static_cast<std::int64_t>(status.st_size)},
           {"changed",
            std::to_string(status.st_mtim.tv_sec) + "." + std::to_string(status.st_mtim.tv_nsec)}};

@@ -11,6 +11,12 @@
 #include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
+namespace {
+
+/// Beyond these a file is opened for each region: a program may have no more than 1024 open.
+constexpr std::size_t kKeptOpen = 256;
+
+}  // namespace
 
 LayerBand::LayerBand(const SampleFolder& sample, std::int64_t first, std::int64_t count) {
   const SampleDescription& description = sample.description();
@@ -26,13 +32,19 @@ LayerBand::LayerBand(const SampleFolder& sample, std::int64_t first, std::int64_
                         std::to_string(size.x) + " × " + std::to_string(size.y) + " of " +
                         std::to_string(description.bits));
     }
-    readers_.push_back(std::move(reader));
+    paths_.push_back(path);
+    if (readers_.size() < kKeptOpen) {
+      readers_.push_back(std::move(reader));
+    }
   }
 }
 
 std::vector<cv::Mat> LayerBand::read(const cv::Rect& region) const {
-  std::vector<cv::Mat> layers(readers_.size());
-  whole_loop(readers_.size(), [&](std::size_t i) { layers[i] = readers_[i]->read(region); });
+  std::vector<cv::Mat> layers(paths_.size());
+  whole_loop(paths_.size(), [&](std::size_t i) {
+    layers[i] = i < readers_.size() ? readers_[i]->read(region)
+                                    : LayerImageReader(paths_[i]).read(region);
+  });
   return layers;
 }
 

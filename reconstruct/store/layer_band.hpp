@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -11,7 +12,7 @@
 
 namespace biotomy::reconstruct {
 
-/// Neighbouring layer files of a sample, opened, from which regions are read together.
+/// Neighbouring layer files of a sample, from which regions are read together.
 class LayerBand {
  public:
   /// Section numbers `first` (from 1) to `first + count − 1`. Throws SampleError, naming the file,
@@ -22,7 +23,8 @@ class LayerBand {
   std::vector<cv::Mat> read(const cv::Rect& region) const;
 
  private:
-  std::vector<std::unique_ptr<LayerImageReader>> readers_;
+  std::vector<std::filesystem::path> paths_;
+  std::vector<std::unique_ptr<LayerImageReader>> readers_;  ///< of the first of them
 };
 
 }  // namespace biotomy::reconstruct

@@ -69,6 +69,26 @@ TEST_F(Commands, ImportTakesFilesAndTheSizeOfTheStack) {
   EXPECT_EQ(description.cuboid.spacing, (reconstruct::Vector3{10, 20, 20}));
 }
 
+TEST_F(Commands, ImportTakesNamesOfFilesInAnyEncoding) {
+  const std::string images = images_ + "/l\xE4ge";  // Latin-1
+  std::filesystem::create_directory(images);
+  reconstruct::save_rgb(images + "/face.png", reconstruct::test_image(20, 10));
+  std::filesystem::rename(images + "/face.png", images +
+                                                    "/Gr\xFC\xDF"
+                                                    "e 1.png");
+  const std::string sample = sample_ + "\xFC";
+  run({"import", images, "--spacing", "10,20,30", "-o", sample});
+  EXPECT_EQ(SampleFolder::open(sample).description().name, "sample\xEF\xBF\xBD");
+  EXPECT_EQ(nlohmann::json::parse(run({"info", sample, "--json"})).at("size").at(0), 20);
+}
+
+TEST_F(Commands, ImportRefusesANameThatIsNoText) {
+  EXPECT_THROW(run({"import", images_, "--spacing", "1,1,1", "-o", sample_, "--name", "k\xE4se"}),
+               InvalidRequest);
+  EXPECT_THROW(run({"import", images_, "--spacing", "1,1,1", "-o", sample_, "--notes", "k\xE4se"}),
+               InvalidRequest);
+}
+
 TEST_F(Commands, ImportTakesTheLayoutInTheOrderXYZ) {
   run({"import", images_, "--spacing", "1,1,1", "-o", sample_, "--chunk", "16,8,4", "--shard",
        "64,32,4", "--codec", "zstd1", "--colours", "planar"});

@@ -94,6 +94,15 @@ TEST_F(QcCommand, JudgesTheImagesOfAFolderInTheirOrder) {
   EXPECT_EQ(document.at("frames").at(9).at("verdict"), "accepted");
 }
 
+TEST_F(QcCommand, TakesNamesOfFilesInAnyEncoding) {
+  const std::string good = put("good.png", face(1));
+  std::filesystem::rename(good, images_ + "/f\xFCnf.png");  // Latin-1
+  reconstruct::write_text(images_ + "/f\xFCnfzig.png", "no picture");
+  const json document = json::parse(run({images_, "--json"}).output);
+  EXPECT_EQ(document.at("accepted"), 1);
+  EXPECT_EQ(document.at("unreadable"), 1);
+}
+
 TEST_F(QcCommand, FindsAFaceThatDidNotChange) {
   put("1.png", face(1));
   cv::Mat again = face(1);
