@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/image_import.hpp"
 #include "reconstruct/sample/image_sequence.hpp"
@@ -65,9 +66,7 @@ std::string name_of(const Options& options) {
   if (!options.name.empty()) {
     return options.name;
   }
-  const fs::path output = fs::absolute(options.output).lexically_normal();
-  return reconstruct::utf8_text(
-      (output.has_filename() ? output : output.parent_path()).filename().string());
+  return reconstruct::utf8_text(reconstruct::absolute_folder(options.output).filename().string());
 }
 
 void check_text(const char* option, const std::string& text) {

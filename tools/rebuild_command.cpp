@@ -1,11 +1,11 @@
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "acquisition/records/sample_lock.hpp"
+#include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/volume_rebuild.hpp"
 #include "tools/command.hpp"
@@ -16,17 +16,9 @@
 namespace biotomy::tools {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The lock's name is made of the folder's: `knee/` must lock what `knee` does.
-fs::path without_slash(const std::string& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
-}
-
 void run(const std::string& folder) {
   const auto sample = reconstruct::SampleFolder::open(folder);
-  const acquisition::SampleLock lock(without_slash(folder));
+  const acquisition::SampleLock lock(reconstruct::absolute_folder(folder));
   keep_freed_memory();
   const Interruption interruption;
   ProgressBar bar("Rebuilding", "layers");

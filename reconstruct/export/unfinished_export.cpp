@@ -7,25 +7,17 @@
 
 #include <unistd.h>
 
+#include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/folder_lock.hpp"
 #include "reconstruct/store/folder_swap.hpp"
 
 namespace biotomy::reconstruct {
-namespace {
-
 namespace fs = std::filesystem;
 
-fs::path without_slash(const fs::path& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
-}
-
-}  // namespace
-
 UnfinishedExport::UnfinishedExport(const fs::path& output)
-    : output_(without_slash(output)),
+    : output_(absolute_folder(output)),
       folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
   refuse_if_taken();
   create_folders_durably(output_.parent_path());

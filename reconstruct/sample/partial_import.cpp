@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/import_request.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
@@ -27,11 +28,6 @@ using nlohmann::json;
 constexpr const char* kRequestName = "request.json";
 constexpr const char* kSampleName = "sample";
 
-fs::path without_slash(const fs::path& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
-}
-
 std::string file_of(const SampleFolder& sample, std::int64_t layer) {
   return sample.layer_path(layer).lexically_relative(sample.path()).string();
 }
@@ -40,7 +36,7 @@ std::string file_of(const SampleFolder& sample, std::int64_t layer) {
 
 PartialImport::PartialImport(const fs::path& output, const SampleDescription& description,
                              const json& asked, bool restart)
-    : output_(without_slash(output)),
+    : output_(absolute_folder(output)),
       folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
   refuse_if_taken();
   lock_ = make_locked_folder(

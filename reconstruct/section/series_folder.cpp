@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/file.h>
-
+#include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/image_file.hpp"
 #include "reconstruct/section/section_record.hpp"
 #include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/store/folder_lock.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -23,19 +21,10 @@ constexpr const char* kDescriptionName = "series.json";
 constexpr const char* kFilmExtension = ".mp4";
 
 FileDescriptor locked(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) {
-    throw SampleError(path.string() + ": the folder can't be made: " + error.message());
-  }
-  FileDescriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder.is_open()) {
-    throw SampleError(path.string() + ": the folder can't be opened");
-  }
-  if (::flock(folder.get(), LOCK_EX | LOCK_NB) != 0) {
-    throw SampleError(path.string() + ": another process is cutting a series into this folder");
-  }
-  return folder;
+  create_folders_durably(path);
+  return make_locked_folder(
+      absolute_folder(path),
+      path.string() + ": another process is cutting a series into this folder");
 }
 
 bool is_digit_or_dash(char letter) {

@@ -88,8 +88,13 @@ std::int64_t factor_between(double finest, double spacing) {
   return static_cast<std::int64_t>(factor);
 }
 
-bool is_coarser(const LevelFactor& level, const LevelFactor& than) {
-  return level.x >= than.x && level.y >= than.y && level.z >= than.z && level != than;
+/// Some axes, or all. A level is computed from the one before, by means of two.
+bool halves_axes(const LevelFactor& level, const LevelFactor& before) {
+  const auto is_same_or_twice = [](std::int64_t factor, std::int64_t finer) {
+    return factor == finer || factor == 2 * finer;
+  };
+  return is_same_or_twice(level.x, before.x) && is_same_or_twice(level.y, before.y) &&
+         is_same_or_twice(level.z, before.z) && level != before;
 }
 
 std::vector<LevelFactor> levels_of(const json& datasets) {
@@ -105,8 +110,8 @@ std::vector<LevelFactor> levels_of(const json& datasets) {
     const Vector3 scale = scale_of(datasets.at(level));
     levels.push_back({factor_between(finest.x, scale.x), factor_between(finest.y, scale.y),
                       factor_between(finest.z, scale.z)});
-    if (level > 0 && !is_coarser(levels[level], levels[level - 1])) {
-      throw SampleError("a level is not coarser than the one before");
+    if (level > 0 && !halves_axes(levels[level], levels[level - 1])) {
+      throw SampleError("a level does not halve axes of the one before");
     }
   }
   return levels;

@@ -107,7 +107,7 @@ TEST_F(SeriesFolderTest, IsForOneAtATime) {
 TEST_F(SeriesFolderTest, SaysThatItCannotBeMade) {
   write_text(temporary_ / "file", "");
   path_ = temporary_ / "file" / "series";
-  EXPECT_THAT(message_of<SampleError>([&] { open(); }), HasSubstr("can't be made"));
+  EXPECT_THAT(message_of<SampleError>([&] { open(); }), HasSubstr("cannot create this folder"));
 }
 
 }  // namespace

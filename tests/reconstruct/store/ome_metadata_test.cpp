@@ -111,7 +111,16 @@ TEST(OmeMetadata, RefusesALevelThatIsNotCoarser) {
   auto& datasets = group["attributes"]["ome"]["multiscales"][0]["datasets"];
   datasets[2]["coordinateTransformations"] = datasets[1]["coordinateTransformations"];
   EXPECT_THAT(message_of<SampleError>([&] { parse_group_metadata(group.dump(), "g"); }),
-              testing::HasSubstr("not coarser"));
+              testing::HasSubstr("does not halve"));
+}
+
+TEST(OmeMetadata, RefusesALevelThatSkipsOne) {
+  auto group = nlohmann::json::parse(group_metadata(example()));
+  auto& datasets = group["attributes"]["ome"]["multiscales"][0]["datasets"];
+  auto& scale = datasets[2]["coordinateTransformations"][0]["scale"];
+  scale[3] = 2.0 * scale[3].get<double>();
+  EXPECT_THAT(message_of<SampleError>([&] { parse_group_metadata(group.dump(), "g"); }),
+              testing::HasSubstr("does not halve"));
 }
 
 TEST(OmeMetadata, RefusesSpacingsThatCannotBeMeant) {
