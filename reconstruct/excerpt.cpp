@@ -18,21 +18,26 @@ bool is_control(char byte) {
 
 }  // namespace
 
-std::string excerpt(std::string_view text) {
+std::string_view beginning_of(std::string_view text, std::size_t most_bytes) {
   std::size_t length = text.size();
-  if (length > kLongest) {
-    length = kLongest;
+  if (length > most_bytes) {
+    length = most_bytes;
     while (length > 0 && continues_a_character(text[length])) {
       --length;
     }
   }
-  std::string line(text.substr(0, length));
+  return text.substr(0, length);
+}
+
+std::string excerpt(std::string_view text) {
+  std::string line(beginning_of(text, kLongest));
+  const bool is_whole = line.size() == text.size();
   for (char& byte : line) {
     if (is_control(byte)) {
       byte = '?';
     }
   }
-  return length < text.size() ? line + "…" : line;
+  return is_whole ? line : line + "…";
 }
 
 }  // namespace biotomy::reconstruct

@@ -109,8 +109,8 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command,
       style_for(chosen, arguments.options, cuboid.spacing), !arguments.no_scale_bar);
   const nlohmann::ordered_json parameters = command_parameters(command);
   const std::vector<std::string> names = names_of(frames.series(), extension);
-  const reconstruct::SeriesFolder folder(arguments.output,
-                                         describe(sample, frames, names, parameters), names);
+  reconstruct::SeriesFolder folder(arguments.output, describe(sample, frames, names, parameters),
+                                   names);
   std::optional<reconstruct::Film> film;
   if (arguments.movie) {
     film.emplace(*arguments.movie, rate, frames.frame_size());
@@ -129,11 +129,14 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command,
     if (!frame) {
       const reconstruct::SampledImage drawn = frames.draw(i);
       frame = drawn.image;
-      reconstruct::write_section_image(
-          folder.frame_path(i), *frame,
-          reconstruct::frame_notes(frames, i, sample.folder.description().name, cuboid,
-                                   drawn.statistics, parameters),
-          quality);
+      // Bricks are kept from frame to frame: once there was damage, any later one may show it.
+      folder.store(i, source.damage().chunks > 0, [&](const std::filesystem::path& path) {
+        reconstruct::write_section_image(
+            path, *frame,
+            reconstruct::frame_notes(frames, i, sample.folder.description().name, cuboid,
+                                     drawn.statistics, parameters),
+            quality);
+      });
     }
     if (film) {
       film->add(*frame);

@@ -98,7 +98,7 @@ void HttpConnection::advance() {
       asked_ = {};
       head_only_ = false;
       keep_alive_ = false;
-      respond({.response = reader_.refusal(), .file = {}});
+      respond(reader_.refusal());
       return;
   }
 }
@@ -113,17 +113,16 @@ void HttpConnection::serve(ReceivedRequest received) {
   request.client_left = [left = left_] { return left->load(); };
   asked_ = request;
   asked_.body.clear();
-  auto answered = [self = shared_from_this()](PreparedResponse prepared) {
-    self->respond(std::move(prepared));
+  auto answered = [self = shared_from_this()](ApiResponse response) {
+    self->respond(std::move(response));
   };
   if (auto response = host_.take_on(std::move(request), std::move(answered))) {
-    respond({.response = std::move(*response), .file = {}});
+    respond(std::move(*response));
   }
 }
 
-void HttpConnection::respond(PreparedResponse prepared) {
+void HttpConnection::respond(ApiResponse response) {
   if (state_ == State::closed) return;
-  ApiResponse& response = prepared.response;
   host_.mark(asked_, response);
   state_ = State::sending;
   limit_to(limits_.write_stall);
@@ -145,7 +144,7 @@ void HttpConnection::respond(PreparedResponse prepared) {
   const std::uint64_t length = response.file ? response.file->bytes : response.body.size();
   std::string head = response_head(response, length, keep_alive_);
   if (response.file && !head_only_) {
-    file_ = std::move(prepared.file);
+    file_ = response.file->file;
     file_offset_ = response.file->begin;
     file_left_ = response.file->bytes;
   }
@@ -170,7 +169,7 @@ void HttpConnection::send_file_on() {
   file_offset_ += bytes;
   file_left_ -= bytes;
   no_limit();  // it is the disk that is waited for
-  host_.read_file(file_.get(), offset, bytes, left_,
+  host_.read_file(file_, offset, bytes, left_,
                   [self = shared_from_this()](std::optional<std::string> piece) {
                     if (self->state_ == State::closed) return;
                     // The length is told already: all that can be done is to end early.

@@ -21,12 +21,6 @@ namespace biotomy::acquisition {
 
 class HttpConnection;
 
-/// What an application answered, ready to be sent.
-struct PreparedResponse {
-  ApiResponse response;
-  bridge::UniqueFd file;  ///< opened, where the response is a part of one
-};
-
 /// What a connection needs of its server. All but `client_left` is asked in the server's thread.
 class ConnectionHost {
  public:
@@ -35,12 +29,12 @@ class ConnectionHost {
   /// Has the request answered by another thread, which calls `answered` in the server's. What is
   /// returned instead is answered at once.
   virtual std::optional<ApiResponse> take_on(ApiRequest request,
-                                             std::function<void(PreparedResponse)> answered) = 0;
+                                             std::function<void(ApiResponse)> answered) = 0;
 
   /// Reads on in a file, by another thread; `done` is called in the server's, with nothing when
   /// the file could not be read.
-  virtual void read_file(int file, std::uint64_t offset, std::size_t bytes,
-                         std::shared_ptr<std::atomic<bool>> left,
+  virtual void read_file(std::shared_ptr<const bridge::UniqueFd> file, std::uint64_t offset,
+                         std::size_t bytes, std::shared_ptr<std::atomic<bool>> left,
                          std::function<void(std::optional<std::string>)> done) = 0;
 
   virtual void mark(const ApiRequest& request, ApiResponse& response) const = 0;
@@ -74,7 +68,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void received(const boost::system::error_code& error, std::size_t bytes);
   void advance();
   void serve(ReceivedRequest received);
-  void respond(PreparedResponse prepared);
+  void respond(ApiResponse response);
   void tell();
   void send_file_on();
   void send(EventText bytes);
@@ -108,7 +102,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   std::deque<EventText> output_;
   std::size_t output_sent_ = 0;  // of the first of them
   bool writing_ = false;
-  bridge::UniqueFd file_;
+  std::shared_ptr<const bridge::UniqueFd> file_;
   std::uint64_t file_offset_ = 0;
   std::uint64_t file_left_ = 0;
   std::shared_ptr<EventSubscription> events_;

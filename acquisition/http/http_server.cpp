@@ -106,19 +106,6 @@ ApiResponse answer_of(const HttpApplication& application, const ApiRequest& requ
   }
 }
 
-/// Opens the file of a response, in the thread that answers.
-PreparedResponse prepared(ApiResponse response) {
-  PreparedResponse ready{.response = std::move(response), .file = {}};
-  if (!ready.response.file) return ready;
-  const std::filesystem::path& file = ready.response.file->file;
-  ready.file = bridge::UniqueFd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  if (!ready.file.valid()) {
-    log_warning("http", "cannot open " + file.string());
-    ready.response = error_response(404, "the file is not there any more");
-  }
-  return ready;
-}
-
 std::optional<std::string> piece_of(int file, std::uint64_t offset, std::size_t bytes) {
   std::string piece(bytes, '\0');
   std::size_t done = 0;
@@ -172,7 +159,7 @@ class HttpServer::Listening : public ConnectionHost {
   int port() const { return acceptor_.local_endpoint().port(); }
 
   std::optional<ApiResponse> take_on(ApiRequest request,
-                                     std::function<void(PreparedResponse)> answered) override {
+                                     std::function<void(ApiResponse)> answered) override {
     if (auto refused = guard_.answer(request)) return refused;
     const Lane kind = application_.lane(request);
     if (kind == Lane::pictures) {
@@ -185,8 +172,7 @@ class HttpServer::Listening : public ConnectionHost {
     const bool taken = lane(kind).post(
         {.run =
              [this, asked, answered = std::move(answered)] {
-               auto ready =
-                   std::make_shared<PreparedResponse>(prepared(answer_of(application_, *asked)));
+               auto ready = std::make_shared<ApiResponse>(answer_of(application_, *asked));
                asio::post(context_, [ready, answered] { answered(std::move(*ready)); });
              },
          .is_useless = asked->client_left});
@@ -195,12 +181,12 @@ class HttpServer::Listening : public ConnectionHost {
                           kRetry);
   }
 
-  void read_file(int file, std::uint64_t offset, std::size_t bytes,
-                 std::shared_ptr<std::atomic<bool>> left,
+  void read_file(std::shared_ptr<const bridge::UniqueFd> file, std::uint64_t offset,
+                 std::size_t bytes, std::shared_ptr<std::atomic<bool>> left,
                  std::function<void(std::optional<std::string>)> done) override {
     files_.go_on({.run =
-                      [this, file, offset, bytes, done = std::move(done)] {
-                        asio::post(context_, [piece = piece_of(file, offset, bytes),
+                      [this, file = std::move(file), offset, bytes, done = std::move(done)] {
+                        asio::post(context_, [piece = piece_of(file->get(), offset, bytes),
                                               done]() mutable { done(std::move(piece)); });
                       },
                   .is_useless = [left = std::move(left)] { return left->load(); }});

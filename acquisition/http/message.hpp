@@ -2,12 +2,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+
+#include "firmware_bridge/wire/unique_fd.hpp"
 
 namespace biotomy::acquisition {
 
@@ -33,9 +34,10 @@ struct ApiRequest {
   bool asks_private_network = false;  ///< of a preflight: may a public page ask this computer?
 };
 
-/// A part of a file as a response's body; it is read while it is sent.
+/// A part of an opened file as a response's body; it is read while it is sent, whatever its name
+/// comes to mean meanwhile.
 struct FilePart {
-  std::filesystem::path file;
+  std::shared_ptr<const bridge::UniqueFd> file;
   std::uint64_t begin = 0;
   std::uint64_t bytes = 0;
 };

@@ -88,7 +88,7 @@ bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
 
 // The worker keeps the order of posting: by then the frame under way was taken, or was not.
 void FocusStep::abandon(const std::string& why) {
-  if (phase_ != Phase::search || search_->has_ended()) return;
+  if (!search_ || phase_ != Phase::search || search_->has_ended()) return;
   FocusRow row{.layer = layer_,
                      .why = std::string(why_) + "; broken off: " + why,
                      .column = focus_,

@@ -54,6 +54,10 @@ Assessment Judgement::finish() {
 
 bool Judgement::add(const char* name, double value, double limit, bool passed, const char* slug,
                     const char* format) {
+  if (!std::isfinite(value)) {
+    reject(slug, std::string(name) + " has no value that could be judged");
+    return false;
+  }
   result_.metrics.push_back({name, value, limit, passed});
   if (!passed) reject(slug, sentence(format, value, limit));
   return passed;

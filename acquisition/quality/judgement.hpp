@@ -13,7 +13,7 @@ class Judgement {
   void reject(const char* slug, const std::string& reason);
 
   /// A metric with its limit. `format` makes the reason of value and limit, both %f, should it
-  /// fail. Whether it passed.
+  /// fail. Whether it passed. A value that is no number fails, and is no metric of the frame.
   bool at_least(const char* name, double value, double limit, const char* slug, const char* format);
   bool at_most(const char* name, double value, double limit, const char* slug, const char* format);
   /// The value may be above or below zero by the limit.

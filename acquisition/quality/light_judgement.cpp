@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -12,6 +13,9 @@ namespace {
 
 /// A limit that lies within so many standard deviations of no change at all can't be judged by.
 constexpr double kCertain = 3.0;
+
+/// A colour of which the casting material has less, of full scale, tells nothing of a lamp's.
+constexpr double kLeastLevel = 0.01;
 
 /// Where both surfaces show casting material, so that a specimen which appears all at once is not
 /// taken for it; where the earlier one does if hardly any cell is left, as after a strong cast.
@@ -58,17 +62,19 @@ void judge_against_last(const SurfaceRecord& surfaces, const QualityThresholds& 
 
 void judge_casting(const CastingColour& now, const std::optional<CastingColour>& first,
                    const QualityThresholds& thresholds, Judgement& judgement) {
-  std::array<double, 3> ratios{};
-  for (std::size_t c = 0; c < ratios.size(); ++c) {
+  std::vector<double> ratios;
+  for (std::size_t c = 0; c < kCastingMetrics.size(); ++c) {
     const int i = static_cast<int>(c);
     judgement.at_most(kCastingMetrics.at(c), now.level[i], 1.0, "", "");
-    if (first) ratios.at(c) = std::log(now.level[i] / first->level[i]);
+    const bool tells = first && first->level[i] >= kLeastLevel && now.level[i] > 0.0;
+    if (tells) ratios.push_back(std::log(now.level[i] / first->level[i]));
   }
   if (!first) return;
   judgement.within("brightness_drift", now.brightness() / first->brightness() - 1.0,
                    thresholds.maximum_brightness_drift, "light-drifted",
                    "the casting material's brightness is %+.3f beside the first layer's, more than "
                    "%.3f: the lamp ages, or its light is blocked");
+  if (ratios.empty()) return;
   const auto [least, most] = std::ranges::minmax(ratios);
   judgement.at_most("colour_drift", most - least, thresholds.maximum_colour_drift, "colour-drifted",
                     "the casting material's colours are %.3f apart from the first layer's, more "

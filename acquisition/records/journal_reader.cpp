@@ -20,6 +20,8 @@ constexpr int kBusyTimeoutMs = 2000;
 std::vector<Metric> metrics_of(const std::string& text) {
   std::vector<Metric> metrics;
   for (const nlohmann::json& entry : nlohmann::json::parse(text)) {
+    // JSON has no word for what is no number; a version before this one wrote null.
+    if (!entry.at("value").is_number() || !entry.at("limit").is_number()) continue;
     metrics.push_back({entry.at("name").get<std::string>(), entry.at("value").get<double>(),
                        entry.at("limit").get<double>(), entry.at("passed").get<bool>()});
   }

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "reconstruct/errors.hpp"
+#include "reconstruct/picture/jpeg_writer.hpp"
 #include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
@@ -18,21 +16,14 @@ namespace {
 
 constexpr int kJpegQuality = 85;
 
-cv::Mat small_bgr(const cv::Mat& image, int width_px) {
+cv::Mat small_rgb(const cv::Mat& image, int width_px) {
   cv::Mat small = image;
   const int longest = std::max(image.cols, image.rows);
   if (longest > width_px) {
     const double factor = static_cast<double>(width_px) / longest;
     cv::resize(image, small, {}, factor, factor, cv::INTER_AREA);
   }
-  if (small.depth() == CV_16U) {
-    cv::Mat bytes;
-    small.convertTo(bytes, CV_8U, 1.0 / 257.0);
-    small = bytes;
-  }
-  cv::Mat bgr;
-  cv::cvtColor(small, bgr, cv::COLOR_RGB2BGR);
-  return bgr;
+  return small;
 }
 
 }  // namespace
@@ -46,25 +37,26 @@ std::filesystem::path RejectedFrames::add(std::int64_t layer, int attempt, const
   std::snprintf(number.data(), number.size(), "%06lld-a%02d-", static_cast<long long>(layer),
                 attempt);
   std::filesystem::path path = folder_ / (number.data() + slug + ".jpg");
-  std::vector<unsigned char> jpeg;
-  if (image.empty() || !cv::imencode(".jpg", small_bgr(image, width_px_), jpeg,
-                                     {cv::IMWRITE_JPEG_QUALITY, kJpegQuality})) {
-    throw reconstruct::SampleError(path.string() + ": the frame cannot be encoded as JPEG");
-  }
-  reconstruct::write_durably(path, std::as_bytes(std::span(jpeg)));
+  reconstruct::write_durably(
+      path, reconstruct::encode_jpeg(small_rgb(image, width_px_), {}, kJpegQuality));
   remove_oldest();
   return path;
 }
 
 void RejectedFrames::remove_oldest() const {
-  std::vector<std::filesystem::path> pictures;
+  std::vector<std::pair<std::pair<long long, int>, std::filesystem::path>> pictures;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-    if (entry.path().extension() == ".jpg") pictures.push_back(entry.path());
+    const std::string name = entry.path().filename().string();
+    long long layer = 0;
+    int attempt = 0;
+    if (std::sscanf(name.c_str(), "%lld-a%d-", &layer, &attempt) == 2) {
+      pictures.push_back({{layer, attempt}, entry.path()});
+    }
   }
-  // The names begin with layer and attempt: their order is the order of taking.
-  std::sort(pictures.begin(), pictures.end());
+  std::sort(pictures.begin(), pictures.end());  // in the order of taking
   const std::size_t kept = static_cast<std::size_t>(kept_);
-  for (std::size_t i = 0; i + kept < pictures.size(); ++i) std::filesystem::remove(pictures[i]);
+  for (std::size_t i = 0; i + kept < pictures.size(); ++i)
+    std::filesystem::remove(pictures[i].second);
 }
 
 }  // namespace biotomy::acquisition

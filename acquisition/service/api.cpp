@@ -14,6 +14,7 @@
 #include "acquisition/service/attempt_watch.hpp"
 #include "acquisition/service/event_source.hpp"
 #include "acquisition/service/status_json.hpp"
+#include "reconstruct/excerpt.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -33,7 +34,8 @@ std::optional<std::string> reason_of(const std::string& body) {
   if (document.empty()) return "";
   if (document.size() != 1 || !document.contains("reason")) return std::nullopt;
   if (!document["reason"].is_string()) return std::nullopt;
-  return document["reason"].get<std::string>().substr(0, kLongestReason);
+  const auto reason = document["reason"].get<std::string>();
+  return std::string(reconstruct::beginning_of(reason, kLongestReason));
 }
 
 ApiResponse refusal(const Ruling& ruling) {

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <string_view>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include "acquisition/viewer/file_version.hpp"
 #include "acquisition/viewer/refusal.hpp"
@@ -44,10 +49,16 @@ std::optional<ByteRange> byte_range(const std::string& header, std::uint64_t siz
 
 ApiResponse file_response(const ApiRequest& request, const std::filesystem::path& file,
                           const std::string& content_type) {
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(file, error);
-  if (error) throw Refusal(404, "the file is gone");
-  const std::string etag = '"' + file_version(file) + '"';
+  // Files are replaced while they are served: length, tag and bytes are those of the one opened
+  // here.
+  auto opened = std::make_shared<const bridge::UniqueFd>(
+      ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat status {};
+  if (!opened->valid() || ::fstat(opened->get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    throw Refusal(404, "the file is gone");
+  }
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const std::string etag = '"' + file_version(status) + '"';
   ApiResponse response{
       .status = 200,
       .content_type = content_type,
@@ -70,7 +81,7 @@ ApiResponse file_response(const ApiRequest& request, const std::filesystem::path
                                         std::to_string(range->begin + range->bytes - 1) + '/' +
                                         std::to_string(size);
   }
-  response.file = FilePart{file, range->begin, range->bytes};
+  response.file = FilePart{std::move(opened), range->begin, range->bytes};
   return response;
 }
 

@@ -1,10 +1,14 @@
 #include "firmware_bridge/camera/pixel_formats.hpp"
 
 #include <array>
+#include <span>
+#include <string>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "reconstruct/errors.hpp"
+#include "reconstruct/picture/jpeg_reader.hpp"
 
 namespace biotomy::bridge {
 
@@ -119,17 +123,17 @@ cv::Mat mjpeg_to_rgb(int width, int height, const PixelPlane& plane) {
       file.back() != 0xD9) {
     throw PixelError("a frame that is no whole JPEG");
   }
-  const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8UC1,
-                      const_cast<std::uint8_t*>(file.data()));
-  const cv::Mat bgr = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (bgr.empty()) throw PixelError("a frame whose JPEG cannot be decoded");
-  if (bgr.cols != width || bgr.rows != height) {
-    throw PixelError("a JPEG of " + std::to_string(bgr.cols) + " x " + std::to_string(bgr.rows) +
+  cv::Mat rgb;
+  try {
+    rgb = reconstruct::decode_jpeg(std::as_bytes(file), reconstruct::ExtraneousBytes::are_ignored);
+  } catch (const reconstruct::SampleError& error) {
+    throw PixelError(std::string("a frame whose JPEG ") + error.what());
+  }
+  if (rgb.cols != width || rgb.rows != height) {
+    throw PixelError("a JPEG of " + std::to_string(rgb.cols) + " x " + std::to_string(rgb.rows) +
                      " pixels in a frame of " + std::to_string(width) + " x " +
                      std::to_string(height));
   }
-  cv::Mat rgb;
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
   return rgb;
 }
 

@@ -53,8 +53,10 @@ VolumeBricks::VolumeBricks(const Volume& volume, std::size_t capacity_bytes,
                     volume.layers_present() >= before.volume_.layers_present();
   several_planes_ = before.several_planes_.load();
   if (same) {
-    cache_.adopt(before.cache_,
-                 [&](const BrickKey& key) { return before.is_complete(key.first, key.second); });
+    const std::lock_guard lock(before.mutex_);
+    cache_.adopt(before.cache_, [&](const BrickKey& key) {
+      return before.is_complete(key.first, key.second) && !before.damaged_.contains(key);
+    });
   }
 }
 

@@ -1,5 +1,7 @@
 #include "reconstruct/picture/jpeg_library.hpp"
 
+#include <jerror.h>
+
 namespace biotomy::reconstruct {
 namespace {
 
@@ -20,7 +22,9 @@ void fail(j_common_ptr codec) {
 }
 
 void hear(j_common_ptr codec, int level) {
-  if (level < 0) {  // a warning: the data is corrupt; the others are traces
+  const bool is_unheard =
+      codec->err->msg_code == JWRN_EXTRANEOUS_DATA && !report_of(codec).hears_of_extraneous_bytes;
+  if (level < 0 && !is_unheard) {  // a warning: the data is corrupt; the others are traces
     keep_message(codec);
     ++codec->err->num_warnings;
   }

@@ -19,6 +19,7 @@ struct JpegReport {
 
   jpeg_error_mgr manager{};  // first: libjpeg hands a pointer to it back to us
   std::jmp_buf place{};
+  bool hears_of_extraneous_bytes = true;  ///< before a marker; if not, they are no warning
   std::array<char, JMSG_LENGTH_MAX> text{};
 };
 

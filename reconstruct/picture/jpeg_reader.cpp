@@ -3,6 +3,7 @@
 #include <string>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/image_size.hpp"
 #include "reconstruct/picture/jpeg_library.hpp"
 
 namespace biotomy::reconstruct {
@@ -12,7 +13,8 @@ namespace {
 /// need a destructor; this has it.
 class Decompressor {
  public:
-  Decompressor() {
+  explicit Decompressor(ExtraneousBytes extraneous) {
+    report_.hears_of_extraneous_bytes = extraneous == ExtraneousBytes::are_damage;
     codec_.err = &report_.manager;
     created_ = setjmp(report_.place) == 0 && create();
   }
@@ -70,13 +72,17 @@ class Decompressor {
 
 }  // namespace
 
-cv::Mat decode_jpeg(std::span<const std::byte> file) {
-  Decompressor picture;
+cv::Mat decode_jpeg(std::span<const std::byte> file, ExtraneousBytes extraneous) {
+  Decompressor picture(extraneous);
   if (!picture.read_header(file)) {
     throw SampleError(std::string("cannot be decoded: ") + picture.message());
   }
   if (picture.is_cmyk()) {
     throw SampleError("is a CMYK JPEG, whose colours depend on a printer: convert it to RGB");
+  }
+  if (!is_image_size(static_cast<std::uint64_t>(picture.width()),
+                     static_cast<std::uint64_t>(picture.height()))) {
+    throw SampleError("its size makes no sense");
   }
   cv::Mat rgb(picture.height(), picture.width(), CV_8UC3);
   if (!picture.read_pixels(rgb)) {

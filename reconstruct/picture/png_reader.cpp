@@ -14,13 +14,11 @@
 #include <png.h>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/image_size.hpp"
 #include "reconstruct/picture/inflated_png.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
-
-constexpr std::uint32_t kLongestSide = 1U << 20;  // refuses nonsense before memory is asked for it
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
 
 /// A file being read. libpng jumps out of the methods on an error, so that nothing in them may
 /// need a destructor; this has it.
@@ -113,9 +111,8 @@ cv::Mat decode_png(std::span<const std::byte> file) {
   if (!picture.read_header()) {
     throw SampleError(std::string("cannot be decoded: ") + picture.message());
   }
-  const std::uint64_t pixels = std::uint64_t{picture.width()} * picture.height();
   cv::Mat rgb;
-  if (pixels > kMostPixels) {
+  if (!is_image_size(picture.width(), picture.height())) {
     throw SampleError("its size makes no sense");
   }
   rgb.create(static_cast<int>(picture.height()), static_cast<int>(picture.width()),

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/image_size.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/tiff_file.hpp"
 
@@ -11,9 +12,6 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr int kChannels = 3;
-// These refuse nonsense before memory is asked for it.
-constexpr std::uint32_t kLongestSide = 1U << 20;
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
 constexpr std::uint32_t kLongestTileSide = 1U << 11;  // 25 MB decoded
 
 /// libtiff knows many more; what a layer can be in is lossless.
@@ -38,8 +36,7 @@ LayerImageReader::LayerImageReader(const std::filesystem::path& path)
       file_->number<std::uint16_t>(TIFFTAG_PLANARCONFIG, 0) != PLANARCONFIG_CONTIG) {
     file_->fail("is not a layer image: expected a tiled RGB TIFF of 8 or 16 bits");
   }
-  if (width == 0 || height == 0 || width > kLongestSide || height > kLongestSide ||
-      std::uint64_t{width} * height > kMostPixels || tile_width == 0 || tile_height == 0 ||
+  if (!is_image_size(width, height) || tile_width == 0 || tile_height == 0 ||
       tile_width > kLongestTileSide || tile_height > kLongestTileSide) {
     file_->fail("is not a layer image: its size makes no sense");
   }

@@ -8,13 +8,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "reconstruct/picture/image_size.hpp"
 #include "reconstruct/sample/tiff_file.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr std::uint32_t kLongestSide = 1U << 20;  // refuses nonsense before memory is asked for it
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 31;
 constexpr int kMostSamples = 8;
 
 /// How a TIFF is laid out, checked.
@@ -37,8 +36,7 @@ Structure structure_of(const TiffFile& file) {
   const auto bits = file.number<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
   const auto sample_format = file.number<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const auto compression = file.number<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-  if (width == 0 || height == 0 || width > kLongestSide || height > kLongestSide ||
-      std::uint64_t{width} * height > kMostPixels || samples == 0 || samples > kMostSamples) {
+  if (!is_image_size(width, height) || samples == 0 || samples > kMostSamples) {
     file.fail("its size makes no sense");
   }
   if ((bits != 8 && bits != 16) || sample_format != SAMPLEFORMAT_UINT) {
@@ -62,8 +60,7 @@ Structure structure_of(const TiffFile& file) {
   const auto block_height =
       structure.tiled ? file.number<std::uint32_t>(TIFFTAG_TILELENGTH, 0)
                       : std::min(height, file.number<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, height));
-  if (block_width == 0 || block_height == 0 || block_width > kLongestSide ||
-      block_height > kLongestSide || std::uint64_t{block_width} * block_height > kMostPixels) {
+  if (!is_image_size(block_width, block_height)) {
     file.fail("the size of its strips or tiles makes no sense");
   }
   structure.block_width = static_cast<int>(block_width);

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDescriptionName = "series.json";
+constexpr const char* kDamagedName = "damaged.json";
 constexpr const char* kFilmExtension = ".mp4";
 
 FileDescriptor locked(const fs::path& path) {
@@ -62,6 +63,7 @@ SeriesFolder::SeriesFolder(fs::path path, const nlohmann::ordered_json& descript
     }
     remove_leftovers();
     refuse_strangers();
+    read_damaged();
     return;
   }
   remove_leftovers();
@@ -78,8 +80,8 @@ void SeriesFolder::remove_leftovers() const {
   for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
     const std::string name = entry.path().filename().string();
     const auto left = [&](const std::string& target) { return is_leftover_of(name, target); };
-    if (name.starts_with('.') &&
-        (left(kDescriptionName) || std::any_of(frames_.begin(), frames_.end(), left))) {
+    if (name.starts_with('.') && (left(kDescriptionName) || left(kDamagedName) ||
+                                  std::any_of(frames_.begin(), frames_.end(), left))) {
       leftovers.push_back(entry.path());
     }
   }
@@ -91,6 +93,7 @@ void SeriesFolder::remove_leftovers() const {
 void SeriesFolder::refuse_strangers() const {
   std::vector<std::string> known = frames_;
   known.emplace_back(kDescriptionName);
+  known.emplace_back(kDamagedName);
   std::sort(known.begin(), known.end());
   for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
     const fs::path name = entry.path().filename();
@@ -101,9 +104,44 @@ void SeriesFolder::refuse_strangers() const {
   }
 }
 
-std::optional<cv::Mat> SeriesFolder::frame(std::size_t index, cv::Size size, int type) const {
-  const fs::path path = frame_path(index);
+void SeriesFolder::read_damaged() {
+  const fs::path path = path_ / kDamagedName;
   if (!fs::exists(path)) {
+    return;
+  }
+  std::ifstream in(path, std::ios::binary);
+  try {
+    damaged_ = nlohmann::json::parse(in).get<std::set<std::string>>();
+  } catch (const nlohmann::json::exception&) {
+    throw SampleError(path.string() + ": is no list of frames: remove it, and those in doubt");
+  }
+}
+
+void SeriesFolder::write_damaged() const {
+  if (damaged_.empty()) {
+    fs::remove(path_ / kDamagedName);
+  } else {
+    write_durably(path_ / kDamagedName, nlohmann::json(damaged_).dump(1) + '\n');
+  }
+}
+
+// A run may be killed at any time: then a good frame may stand among the damaged, never one of
+// these among the good.
+void SeriesFolder::store(std::size_t index, bool is_damaged,
+                         const std::function<void(const fs::path&)>& write) {
+  const std::string& name = frames_.at(index);
+  if (is_damaged && damaged_.insert(name).second) {
+    write_damaged();
+  }
+  write(path_ / name);
+  if (!is_damaged && damaged_.erase(name) > 0) {
+    write_damaged();
+  }
+}
+
+std::optional<cv::Mat> SeriesFolder::frame(std::size_t index, cv::Size size, int type) const {
+  const fs::path path = path_ / frames_.at(index);
+  if (!fs::exists(path) || damaged_.contains(frames_.at(index))) {
     return std::nullopt;
   }
   try {

@@ -38,7 +38,7 @@ void rename_or_fail(const fs::path& from, const fs::path& to, const fs::path& pl
   }
 }
 
-void replace_in_two_steps(const fs::path& fresh, const fs::path& place) {
+void swap_in_three_steps(const fs::path& fresh, const fs::path& place) {
   fs::path aside = fresh;
   aside += ".old";
   remove_folder(aside);
@@ -51,6 +51,12 @@ void replace_in_two_steps(const fs::path& fresh, const fs::path& place) {
   rename_or_fail(aside, fresh, place);
 }
 
+void swap(const fs::path& fresh, const fs::path& place) {
+  if (!exchange(fresh, place)) {
+    swap_in_three_steps(fresh, place);
+  }
+}
+
 }  // namespace
 
 void replace_folder(const fs::path& fresh, const fs::path& place) {
@@ -60,10 +66,13 @@ void replace_folder(const fs::path& fresh, const fs::path& place) {
     sync_folder(place.parent_path());
     return;
   }
-  if (!exchange(fresh, place)) {
-    replace_in_two_steps(fresh, place);
+  swap(fresh, place);
+  try {
+    sync_folder(place.parent_path());
+  } catch (const SampleError&) {
+    swap(fresh, place);  // what is not known to last takes nothing's place
+    throw;
   }
-  sync_folder(place.parent_path());
   remove_folder(fresh);  // it has the old content now
 }
 

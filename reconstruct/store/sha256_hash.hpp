@@ -9,7 +9,7 @@
 
 namespace biotomy::reconstruct {
 
-/// SHA-256 of bytes that come piece by piece.
+/// SHA-256 of bytes that come piece by piece. Every call throws SampleError where OpenSSL fails.
 class Sha256Hash {
  public:
   Sha256Hash();

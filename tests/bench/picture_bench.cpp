@@ -123,7 +123,9 @@ void run(const Options& options) {
                    {cv::IMWRITE_JPEG_QUALITY, 90}, options.rounds);
   compare_decoders("reading PNG, 8 bits", rgb, ".png", decode_png, options.rounds);
   compare_decoders("reading PNG, 16 bits", deep, ".png", decode_png, options.rounds);
-  compare_decoders("reading JPEG", rgb, ".jpg", decode_jpeg, options.rounds);
+  compare_decoders(
+      "reading JPEG", rgb, ".jpg",
+      [](std::span<const std::byte> file) { return decode_jpeg(file); }, options.rounds);
 }
 
 }  // namespace

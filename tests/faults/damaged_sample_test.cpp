@@ -172,6 +172,15 @@ TEST_F(DamagedSample, ToleratedDamageLetsASeriesBeWhole) {
   series.emplace_back("--tolerate-missing");
   expect_warning(run(series, folder_.path()), shard(0));
   EXPECT_TRUE(fs::exists(frames / "003_+180.0deg.png"));
+
+  expect_warning(run(series, folder_.path()), shard(0));  // nor is it silent the second time
+  const FolderContent damaged = content_of_folder(frames);
+  ASSERT_EQ(run({BIOTOMY_TOOL, "rebuild", sample_}, folder_.path()).exit_code, 0);
+  const Outcome mended = run(series, folder_.path());
+  EXPECT_EQ(mended.exit_code, 0);
+  EXPECT_EQ(mended.errors, "");
+  EXPECT_NE(content_of_folder(frames), damaged);
+  EXPECT_FALSE(fs::exists(frames / "damaged.json"));
 }
 
 TEST_F(DamagedSample, VerifyNamesAShardThatIsMissingAtAnyLevelAndRebuildBringsItBack) {

@@ -281,6 +281,9 @@ TEST_F(FullDisk, AFilmIsWholeOrNotThere) {
 
 TEST_F(FullDisk, ARebuildLeavesTheVolumeThatWasThere) {
   prepare_sample();
+  const fs::path shard = prepared_ / "sample/volume.ome.zarr/0/c/0/0/0/0";
+  ASSERT_TRUE(fs::exists(shard));
+  std::ofstream(shard, std::ios::in | std::ios::out) << "damaged, so that old is told from new";
   fail_in_turn({BIOTOMY_TOOL, "rebuild", disk_ / "sample"});
   fill_the_disk({BIOTOMY_TOOL, "rebuild", disk_ / "sample"});
 }

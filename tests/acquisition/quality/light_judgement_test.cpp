@@ -1,5 +1,7 @@
 #include "acquisition/quality/light_judgement.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -73,6 +75,18 @@ TEST(LightJudgement, SeesADriftThatNoLayerShows) {
   }
   EXPECT_EQ(slug, "light-drifted");
   EXPECT_NEAR(light, 0.75, 0.05);
+}
+
+TEST(LightJudgement, LearnsNothingFromAColourThatTheCastingMaterialHasNot) {
+  SurfaceWatch watch;
+  const auto without_red = [](const cv::Mat& image) { return lit(image, cv::Scalar(0, 1, 1)); };
+  for (int layer = 0; layer < 3; ++layer) {
+    const Assessment judged = watch.accept(without_red(watch.next_face()));
+    EXPECT_EQ(judged.verdict, Verdict::accepted) << judged.reason;
+    for (const Metric& metric : judged.metrics) {
+      EXPECT_TRUE(std::isfinite(metric.value)) << metric.name;
+    }
+  }
 }
 
 TEST(LightJudgement, ComparesWithTheCastingMaterialOfALayerOfLongAgo) {

@@ -1,6 +1,7 @@
 #include "acquisition/records/layer_journal.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <thread>
@@ -175,6 +176,17 @@ TEST_F(LayerJournalTest, ShowsTheAttemptsSinceTheOneThatIsKnown) {
   ASSERT_EQ(rest.size(), 1U);
   EXPECT_EQ(rest[0].layer, 8);
   EXPECT_EQ(reader.last_attempt_id(), rest[0].id);
+}
+
+TEST_F(LayerJournalTest, ShowsAttemptsWithAMetricThatIsNoNumber) {
+  LayerJournal journal(path);
+  AttemptRow row = attempt(1, 1, Verdict::rejected);
+  row.assessment.metrics = {{"sharpness", 2.0, 1.0, true}, {"drift", std::nan(""), 0.1, false}};
+  journal.record_attempt(row);
+  const std::vector<AttemptNote> notes = JournalReader(path).attempts_after(0, 10);
+  ASSERT_EQ(notes.size(), 1U);
+  ASSERT_EQ(notes[0].metrics.size(), 1U);
+  EXPECT_EQ(notes[0].metrics[0].name, "sharpness");
 }
 
 TEST_F(LayerJournalTest, CommitsALayerOnlyOnce) {

@@ -42,5 +42,16 @@ TEST(RejectedFrames, LetTheOldestGo) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "000012-a01-stale.jpg"));
 }
 
+TEST(RejectedFrames, LetTheOldestGoAfterMoreThanAHundredAttempts) {
+  const TemporaryFolder folder;
+  const RejectedFrames frames(folder.path(), 2, 50);
+  for (int attempt = 98; attempt <= 101; ++attempt) {
+    frames.add(7, attempt, "stale", chequered_face(20, 20, 1.0));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "000007-a99-stale.jpg"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "000007-a100-stale.jpg"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "000007-a101-stale.jpg"));
+}
+
 }  // namespace
 }  // namespace biotomy::tests

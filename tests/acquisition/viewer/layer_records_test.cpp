@@ -8,7 +8,9 @@
 #include <gmock/gmock.h>
 
 #include "acquisition/records/layer_journal.hpp"
+#include "tests/acquisition/viewer/part_content.hpp"
 #include "tests/acquisition/viewer/viewed_sample.hpp"
+#include "tests/file_content.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -112,7 +114,8 @@ TEST_F(LayerRecordsOfARig, GiveNoFileThatTheJournalDoesNotName) {
   ASSERT_EQ(kept.status, 200) << kept.body;
   ASSERT_TRUE(kept.file);
   EXPECT_EQ(kept.file->bytes, 9U);
-  EXPECT_EQ(kept.file->file, sample_.rejected_path() / "000002-a02-blurred.jpg");
+  EXPECT_EQ(tests::content_of(*kept.file),
+            tests::content_of(sample_.rejected_path() / "000002-a02-blurred.jpg"));
   for (const char* name : {"another.jpg", "000002-a01-blurred.jpg", "../journal.sqlite", "..",
                            "000003-a01-blurred.jpg", "", "/etc/passwd"}) {
     const ApiResponse response = ask("/api/v1/rejected/" + std::string(name));

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/acquisition/viewer/part_content.hpp"
 #include "tests/acquisition/viewer/viewed_sample.hpp"
+#include "tests/file_content.hpp"
+#include "tests/reconstruct/test_files.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -41,8 +44,8 @@ TEST_F(FilesOfAVolume, AreGivenWholeAndInParts) {
   const ApiResponse whole = get("0/c/0/0/0/0");
   ASSERT_EQ(whole.status, 200) << whole.body;
   ASSERT_TRUE(whole.file);
-  EXPECT_EQ(whole.file->file, shard);
   EXPECT_EQ(whole.file->bytes, size);
+  EXPECT_EQ(tests::content_of(*whole.file), tests::content_of(shard));
   const ApiResponse part = get("0/c/0/0/0/0", "bytes=-20");
   EXPECT_EQ(part.status, 206);
   EXPECT_EQ(part.file->begin, size - 20);
@@ -54,6 +57,17 @@ TEST_F(FilesOfAVolume, AreGivenWholeAndInParts) {
   EXPECT_EQ(beyond.status, 416);
   EXPECT_EQ(beyond.headers.at("Content-Range"), "bytes */" + std::to_string(size));
   EXPECT_EQ(get("zarr.json").content_type, "application/json");
+}
+
+TEST_F(FilesOfAVolume, AreWhatTheyWereWhenTheyWereAskedFor) {
+  const std::filesystem::path metadata = sample_.volume_path() / "zarr.json";
+  const std::string before = tests::content_of(metadata);
+  const ApiResponse asked = get("zarr.json");
+  ASSERT_TRUE(asked.file);
+  reconstruct::write_text(metadata.string() + ".new", "another one, written while that is sent");
+  std::filesystem::rename(metadata.string() + ".new", metadata);
+  EXPECT_EQ(tests::content_of(*asked.file), before);
+  EXPECT_NE(get("zarr.json").headers.at("ETag"), asked.headers.at("ETag"));
 }
 
 TEST_F(FilesOfAVolume, AreGivenWholeToWhoHasTheBeginningOfAnother) {

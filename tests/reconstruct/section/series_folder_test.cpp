@@ -29,8 +29,10 @@ class SeriesFolderTest : public testing::Test {
     return SeriesFolder(path_, description, kFrames);
   }
 
-  static void write_frame(const SeriesFolder& folder, std::size_t index) {
-    write_section_image(folder.frame_path(index), test_image(kSize.width, kSize.height), {});
+  static void write_frame(SeriesFolder folder, std::size_t index, bool is_damaged = false) {
+    folder.store(index, is_damaged, [](const std::filesystem::path& path) {
+      write_section_image(path, test_image(kSize.width, kSize.height), {});
+    });
   }
 
   tests::TemporaryFolder temporary_;
@@ -62,6 +64,22 @@ TEST_F(SeriesFolderTest, DoesNotTakeADamagedFrameOrOneOfAnotherSizeForItsOwn) {
   EXPECT_TRUE(open().frame(0, kSize, CV_8UC3).has_value());
   truncate_file(path_ / kFrames[0], 0.5);
   EXPECT_FALSE(open().frame(0, kSize, CV_8UC3).has_value());
+}
+
+TEST_F(SeriesFolderTest, CutsFramesOfADamagedVolumeAgain) {
+  write_frame(open(), 0, true);
+  write_frame(open(), 1);
+  EXPECT_FALSE(open().frame(0, kSize, CV_8UC3).has_value());
+  EXPECT_TRUE(open().frame(1, kSize, CV_8UC3).has_value());
+  write_frame(open(), 0);
+  EXPECT_TRUE(open().frame(0, kSize, CV_8UC3).has_value());
+  EXPECT_THAT(names_in(path_), UnorderedElementsAre("series.json", kFrames[0], kFrames[1]));
+}
+
+TEST_F(SeriesFolderTest, SaysThatItsListOfDamagedFramesIsNone) {
+  open();
+  write_text(path_ / "damaged.json", "{");
+  EXPECT_THAT(message_of<SampleError>([&] { open(); }), HasSubstr("damaged.json: is no list"));
 }
 
 TEST_F(SeriesFolderTest, OfAnotherSeriesIsRefused) {

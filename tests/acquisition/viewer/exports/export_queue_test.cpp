@@ -18,6 +18,7 @@
 
 #include "reconstruct/picture/png_reader.hpp"
 #include "tests/acquisition/viewer/exports/archive_content.hpp"
+#include "tests/acquisition/viewer/part_content.hpp"
 #include "tests/acquisition/viewer/viewed_sample.hpp"
 #include "tests/file_content.hpp"
 
@@ -127,7 +128,7 @@ TEST_F(ExportsOfASample, GiveAFileOfASection) {
   EXPECT_EQ(download.file->bytes, file.at("bytes"));
   EXPECT_EQ(download.headers.at("Content-Disposition"),
             "attachment; filename=\"test-section.png\"");
-  const std::string bytes = content_of(download.file->file);
+  const std::string bytes = content_of(*download.file);
   const ApiResponse picture = api_->answer({.method = "GET",
                                             .path = "/api/v1/section",
                                             .query = {{"points", "0,0,0 590,0,0 0,539,780"}}});
