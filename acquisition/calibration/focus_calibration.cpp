@@ -16,8 +16,9 @@
 namespace biotomy::acquisition {
 namespace {
 
-std::optional<std::string> wheel_complaint(const bridge::StageStatus& status) {
-  if (wheel_stands(status)) return std::nullopt;
+std::optional<std::string> wheel_complaint(const bridge::StageStatus& status,
+                                           const SafetyLimits& limits) {
+  if (!wheel_turns(status, limits)) return std::nullopt;
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), "the wheel turns at %.0f rpm and must stand still",
                 status.spindle_rpm);
@@ -26,12 +27,13 @@ std::optional<std::string> wheel_complaint(const bridge::StageStatus& status) {
 
 }  // namespace
 
-std::optional<std::string> focus_calibration_complaint(const bridge::StageStatus& status) {
+std::optional<std::string> focus_calibration_complaint(const bridge::StageStatus& status,
+                                                       const SafetyLimits& limits) {
   if (status.state != bridge::ControllerState::idle) {
     return std::string("the controller is ") + bridge::to_string(status.state) +
            " and must be idle: try again in a moment";
   }
-  return wheel_complaint(status);
+  return wheel_complaint(status, limits);
 }
 
 FocusCalibration::FocusCalibration(const JobSettings& settings, const FocusCalibrationParts& parts,
@@ -57,7 +59,8 @@ std::optional<std::string> FocusCalibration::poll(const std::optional<bridge::St
     return is_ready(record_) ? std::optional(record_.get()) : std::nullopt;
   }
   if (!status) return std::nullopt;  // without a view of the rig nothing moves on
-  if (const auto complaint = wheel_complaint(*status)) throw StepFailure(*complaint);
+  if (const auto complaint = wheel_complaint(*status, settings_.limits))
+    throw StepFailure(*complaint);
   const bool past_homing = phase_ != Phase::asking && phase_ != Phase::homing;
   if (past_homing && !status->interlocks.homed) {
     throw StepFailure("the controller lost its reference: its axes are not homed any more");

@@ -32,7 +32,8 @@ struct FocusCalibrationParts {
 };
 
 /// Why the focus cannot be calibrated by a stage in this state; nothing when it can.
-std::optional<std::string> focus_calibration_complaint(const bridge::StageStatus& status);
+std::optional<std::string> focus_calibration_complaint(const bridge::StageStatus& status,
+                                                       const SafetyLimits& limits);
 
 /// Finds where the face under the camera is sharp: homes the axes if need be, parks the block, puts
 /// the lamp on, searches by column or lens as a job does, and writes `focus.json`. The actuator

@@ -1,12 +1,17 @@
 #include "acquisition/job/alarm_kind.hpp"
 
 #include "acquisition/job/step_failure.hpp"
+#include "acquisition/records/journal_error.hpp"
+#include "reconstruct/errors.hpp"
 
 namespace biotomy::acquisition {
 
 AlarmKind alarm_kind_of(const std::exception& error, JobState state) {
   const auto* failure = dynamic_cast<const StepFailure*>(&error);
   if (failure != nullptr && failure->kind()) return *failure->kind();
+  const bool is_of_the_disk = dynamic_cast<const JournalError*>(&error) != nullptr ||
+                              dynamic_cast<const reconstruct::SampleError*>(&error) != nullptr;
+  if (is_of_the_disk && state != JobState::preflight) return AlarmKind::storage;
   switch (state) {
     case JobState::preflight:
       return AlarmKind::preflight;

@@ -29,14 +29,17 @@ EarlierRun read_earlier_run(const std::filesystem::path& journal) {
   if (!std::filesystem::exists(journal)) return {};
   const LayerJournal brought_up_to_date(journal);  // a reader knows the present version alone
   const JournalReader reader(journal);
-  return {.last_sequence = reader.last_sequence(), .was_running = is_at_work(reader.last_state())};
+  return {.last_sequence = reader.last_sequence(),
+          .was_running = is_at_work(reader.last_state()),
+          .alarm = reader.standing_alarm()};
 }
 
 EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std::string& utc) {
   const std::filesystem::path path = sample / reconstruct::SampleFolder::kJournalName;
-  EarlierRun earlier = read_earlier_run(path);
-  if (!earlier.was_running) return earlier;
+  EarlierRun earlier;
   try {
+    earlier = read_earlier_run(path);
+    if (!earlier.was_running) return earlier;
     LayerJournal(path).record_event(
         {.kind = "state",
          .state = to_string(JobState::faulted),
@@ -46,6 +49,7 @@ EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std:
   } catch (const JournalError& error) {
     log_error("journal", std::string("no job goes on by itself: ") + error.what());
     earlier.was_running = false;
+    if (earlier.alarm.empty()) earlier.alarm = error.what();
   }
   return earlier;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/device_error.hpp"
@@ -86,7 +87,11 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
                            settings.plan.after_restart == JobPlan::AfterRestart::go_on),
       conditioning_(settings_.limits) {
   commands_.raise_to(earlier.last_sequence);
-  alarm_ = Alarm{"the daemon has just started: look at the rig, then acknowledge",
+  start_up_latch_ = earlier.alarm.empty();
+  alarm_ = Alarm{start_up_latch_
+                     ? "the daemon has just started: look at the rig, then acknowledge"
+                     : "the daemon was started again after an alarm that nobody acknowledged (" +
+                           earlier.alarm + "): look at the rig, then acknowledge",
                  utc_text(surroundings_.wall_clock()), state_, AlarmKind::start_latch};
   publish();
 }
@@ -128,10 +133,14 @@ void Job::look_at_lines(TimePoint now) {
 void Job::exchange(TimePoint now) {
   fresh_.reset();
   try {
-    fresh_ = heartbeat_withheld_ ? parts_.stage.look() : parts_.stage.exchange(++heartbeat_);
+    const bool beats = seen_at_rest_ && !heartbeat_withheld_;
+    fresh_ = beats ? parts_.stage.exchange(++heartbeat_) : parts_.stage.look();
     if (!last_status_) {
       commands_.raise_to(std::max(fresh_->sequence_started, fresh_->sequence_finished));
     }
+    const bool is_idle = fresh_->state == bridge::ControllerState::idle ||
+                         fresh_->state == bridge::ControllerState::faulted;
+    seen_at_rest_ = seen_at_rest_ || (is_idle && wheel_stands(*fresh_, settings_.limits));
     last_status_ = fresh_;
     silence_logged_ = false;
   } catch (const bridge::DeviceError& error) {
@@ -145,6 +154,12 @@ void Job::supervise(TimePoint now) {
   if (const auto cause = supervision_.cause()) {
     fault(*cause, now);
     return;
+  }
+  if (wheel_must_stand(state_)) {
+    if (const auto cause = supervision_.wheel_cause()) {
+      fault(*cause, now);
+      return;
+    }
   }
   if (is_layer_step(state_)) {
     if (const auto cause = supervision_.temperature_cause()) {
@@ -328,6 +343,7 @@ void Job::begin_rest(TimePoint now) {
 void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
   log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
   note("alarm", "held: " + cause);
+  pause_cause_ = cause;
   held_for_ = what;
   try {
     go(JobEvent::hold, now);
@@ -372,7 +388,7 @@ std::string Job::waiting_for() const {
       return identity_ ? "waits for the camera, the sample and the disk"
                        : "waits for the controller to say what it is";
     case JobState::recovering:
-      return "waits for the controller to be idle";
+      return "waits for the controller to be idle and the wheel to stand";
     case JobState::homing:
       return "waits for the axes to find their reference";
     case JobState::conditioning:

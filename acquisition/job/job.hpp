@@ -90,6 +90,7 @@ class Job {
   OperatorReply calibration_begun(const char* kind);
   void poll_calibration(TimePoint now);
   void give_up_calibration(const std::string& why, TimePoint now);
+  void confirm_calibration_stopped(TimePoint now);
   void end_calibration(CalibrationStatus::Progress progress, const std::string& sentence);
   void go_on_by_itself(TimePoint now);
   void wait_for_a_person(const std::string& why);
@@ -122,6 +123,9 @@ class Job {
   std::int64_t layers_needed() const;
   void park_after_fault(TimePoint now);
   void break_off_parking(const std::string& cause, TimePoint now);
+  void give_parking_up(const std::string& why);
+  void stop_what_is_found(TimePoint now);
+  void add_to_alarm(const std::string& cause);
   void leave_to_the_watchdog(const std::string& why);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);
@@ -139,8 +143,12 @@ class Job {
 
   JobState state_ = JobState::faulted;
   std::optional<Alarm> alarm_;
-  bool start_up_latch_ = true;      ///< faulted only because the daemon has just started
-  bool temperature_alarm_ = false;  ///< of the alarm's cause
+  bool start_up_latch_ = true;  ///< faulted only because the daemon has just started
+  /// Since the daemon started. Until then there is no heartbeat: what is found at work is nobody's,
+  /// and the controller's watchdog shall stop it.
+  bool seen_at_rest_ = false;
+  bool stops_what_it_finds_ = true;  ///< at work, once
+  bool temperature_alarm_ = false;   ///< of the alarm's cause
   bool may_go_on_by_itself_ = false;
   bool went_on_by_itself_ = false;
   std::optional<TimePoint> good_since_;  ///< the rig, while it may go on by itself
@@ -171,6 +179,7 @@ class Job {
   bool fault_parking_only_stops_ = false;  ///< somebody may be near: nothing is moved any more
   bool stop_wanted_ = false;
   TimePoint stop_wanted_since_{};
+  TimePoint stop_tried_at_{};
   TimePoint fault_park_until_{};
 
   std::future<PreflightFindings> inspection_;
@@ -186,7 +195,8 @@ class Job {
   std::optional<VolumeFeed> feed_;
   std::optional<Continuation> continuation_;
   std::unique_ptr<LayerCycle> cycle_;
-  std::unique_ptr<CalibrationRun> calibration_;  ///< while one is under way
+  std::unique_ptr<CalibrationRun> calibration_;      ///< while one is under way
+  std::optional<std::string> calibration_given_up_;  ///< until its stop is carried out: why
   CalibrationStatus calibration_status_;
 
   std::int64_t committed_ = 0;

@@ -60,7 +60,8 @@ OperatorReply Job::calibrate_focus(TimePoint now) {
                    "): acknowledge it first");
   }
   if (!fresh_) return refused("the controller did not answer just now: try again");
-  if (const auto complaint = focus_calibration_complaint(*fresh_)) return refused(*complaint);
+  if (const auto complaint = focus_calibration_complaint(*fresh_, settings_.limits))
+    return refused(*complaint);
   const auto utc_now = [clock = surroundings_.wall_clock] { return utc_text(clock()); };
   calibration_ = std::make_unique<FocusCalibration>(
       settings_,
@@ -71,6 +72,10 @@ OperatorReply Job::calibrate_focus(TimePoint now) {
 
 void Job::poll_calibration(TimePoint now) {
   using enum CalibrationStatus::Progress;
+  if (calibration_given_up_) {
+    confirm_calibration_stopped(now);
+    return;
+  }
   if (const auto cause = supervision_.standing_cause()) {
     give_up_calibration(cause->sentence, now);
     return;
@@ -100,11 +105,30 @@ void Job::give_up_calibration(const std::string& why, TimePoint now) {
         now);
     return;
   }
-  end_calibration(CalibrationStatus::Progress::failed, "it was given up: " + why);
+  const std::string sentence = "it was given up: " + why;
+  if (calibration_->moves_axes()) {
+    calibration_given_up_ = sentence;
+    calibration_status_.sentence = "waits for the controller to take the stop";
+  } else {
+    end_calibration(CalibrationStatus::Progress::failed, sentence);
+  }
+}
+
+/// A stop is believed when the controller has carried it out.
+void Job::confirm_calibration_stopped(TimePoint now) {
+  if (!fresh_) return;
+  try {
+    if (commands_.poll(*fresh_, now)) {
+      end_calibration(CalibrationStatus::Progress::failed, std::string(*calibration_given_up_));
+    }
+  } catch (const StepFailure& failure) {
+    fault({alarm_kind_of(failure, JobState::idle), failure.what()}, now);
+  }
 }
 
 void Job::end_calibration(CalibrationStatus::Progress progress, const std::string& sentence) {
   calibration_.reset();
+  calibration_given_up_.reset();
   lamp_and_tower(false);
   calibration_status_.progress = progress;
   calibration_status_.sentence = sentence;

@@ -1,7 +1,10 @@
 // What a job does with the operator's commands.
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "acquisition/job/job.hpp"
+#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
 
 namespace biotomy::acquisition {
@@ -188,6 +191,11 @@ std::optional<std::string> Job::why_not_acknowledge() const {
   }
   if (!at_rest()) return "the rig is still being parked: wait a moment";
   if (!fresh_) return "the controller did not answer just now: try again";
+  if (wheel_turns(*fresh_, settings_.limits)) {
+    return "the wheel still turns, at " +
+           std::to_string(std::lround(std::abs(fresh_->spindle_rpm))) +
+           " rpm: wait until it stands, or switch its drive off";
+  }
   return std::nullopt;
 }
 
@@ -219,8 +227,15 @@ void Job::go_on_by_itself(TimePoint now) {
                       std::to_string(std::chrono::seconds(kLookLimit).count()) + " s");
     return;
   }
-  const bool ready = fresh_ && !supervision_.standing_cause() &&
-                     fresh_->state != bridge::ControllerState::busy &&
+  // Somebody was there. Lines that cannot be read, or a link that is not up, may be so at a start.
+  const auto standing = supervision_.standing_cause();
+  if (standing &&
+      (standing->kind == AlarmKind::emergency_stop || standing->kind == AlarmKind::door)) {
+    wait_for_a_person(standing->sentence);
+    return;
+  }
+  const bool ready = fresh_ && !standing && wheel_stands(*fresh_, settings_.limits) &&
+                     !stop_wanted_ && fresh_->state != bridge::ControllerState::busy &&
                      fresh_->state != bridge::ControllerState::booting;
   if (!ready) {
     good_since_.reset();
@@ -248,6 +263,7 @@ void Job::wait_for_a_person(const std::string& why) {
   alarm_->cause = "the job did not go on by itself after a restart, since " + why +
                   ": look at the rig, then acknowledge";
   log_warning("job", alarm_->cause);
+  note("alarm", alarm_->cause);
 }
 
 }  // namespace biotomy::acquisition

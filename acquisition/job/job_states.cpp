@@ -173,6 +173,23 @@ bool is_at_rest(JobState state) {
   return state == idle || state == paused || state == done || state == aborted || state == faulted;
 }
 
+bool wheel_must_stand(JobState state) {
+  switch (state) {
+    case conditioning:
+    case clearing:
+    case settling:
+    case lighting:
+    case focusing:
+    case capturing:
+    case assessing:
+    case storing:
+    case held:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::span<const JobState> all_job_states() {
   return kStates;
 }

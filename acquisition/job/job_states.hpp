@@ -74,6 +74,9 @@ std::optional<JobState> next_state(JobState state, JobEvent event);
 /// True where nothing of the rig moves or is about to: idle, paused, done, aborted, faulted.
 bool is_at_rest(JobState state);
 
+/// True where the wheel was seen to stand and must not turn: from the retract to the next pass.
+bool wheel_must_stand(JobState state);
+
 std::span<const JobState> all_job_states();
 std::span<const JobEvent> all_job_events();
 const char* to_string(JobState state);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "acquisition/job/job.hpp"
+#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
 
 namespace biotomy::acquisition {
@@ -60,6 +61,7 @@ std::optional<JobEvent> Job::poll_preflight() {
 
 std::optional<JobEvent> Job::poll_recovering() {
   if (fresh_->state != bridge::ControllerState::idle) return std::nullopt;
+  if (!wheel_stands(*fresh_, settings_.limits)) return std::nullopt;
   const auto answer = where_to_go_on(settings_.plan, findings_.journal, *fresh_, settings_.limits);
   if (const auto* disagreement = std::get_if<Disagreement>(&answer)) {
     throw StepFailure(disagreement->sentence, AlarmKind::disagreement);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "acquisition/job/job.hpp"
+#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 
@@ -27,7 +28,7 @@ void Job::fault(const StopCause& why, TimePoint now) {
   note("alarm", cause);
   pause_cause_.clear();
   state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
-  start_up_latch_ = false;
+  start_up_latch_ = stops_what_it_finds_ = false;
   temperature_alarm_ = false;
   may_go_on_by_itself_ = false;
   start_after_reset_ = false;
@@ -51,17 +52,25 @@ void Job::halt(TimePoint now) {
 }
 
 void Job::park_after_fault(TimePoint now) {
+  constexpr std::chrono::milliseconds kBlindRetry{500};  // an unanswered one holds the tick up
+  stop_what_is_found(now);
+  if (stop_wanted_ && (fresh_ || now - stop_tried_at_ > kBlindRetry)) {
+    stop_tried_at_ = now;
+    stop_wanted_ = !commands_.stop_now(now);
+  }
+  const bool unconfirmed = stop_wanted_ || (fault_parking_ == FaultParking::wanted) ||
+                           (fault_parking_ == FaultParking::under_way && parking_.waits_for_stop());
+  if (unconfirmed && now - stop_wanted_since_ > settings_.limits.command_start &&
+      (stop_wanted_ || !fresh_)) {
+    leave_to_the_watchdog(fresh_ ? "the controller does not take it" : "it does not answer");
+  }
+  if (fault_parking_ == FaultParking::none) return;
   if (now > fault_park_until_) {
-    // Of who has not answered for so long the watchdog has tripped; a person is called anyway.
-    stop_wanted_ = false;
-    fault_parking_ = FaultParking::none;
+    give_parking_up("it took too long: " +
+                    (fresh_ ? parking_.waiting_for() : std::string("the controller is not seen")));
+    return;
   }
-  if (!fresh_) return;
-  if (stop_wanted_) stop_wanted_ = !commands_.stop_now(now);
-  if (stop_wanted_ && now - stop_wanted_since_ > settings_.limits.command_start) {
-    leave_to_the_watchdog("the controller does not take it");
-  }
-  if (stop_wanted_ || fault_parking_ == FaultParking::none) return;
+  if (!fresh_ || stop_wanted_) return;
 
   // On an e-stop, an open door or a fault of its own the controller retracts by itself, and takes
   // no command: then there is nothing more to do. What only our own lines have seen it does not
@@ -73,23 +82,42 @@ void Job::park_after_fault(TimePoint now) {
       parking_.begin(Parking::From::stopped, now);
       fault_parking_ = FaultParking::under_way;
     }
-    if (controller_acts || (fault_parking_only_stops_ && !parking_.waits_for_stop()) ||
-        parking_.poll(*fresh_, now)) {
+    const bool stop_is_all = fault_parking_only_stops_ && !parking_.waits_for_stop();
+    if (controller_acts || (stop_is_all && wheel_stands(*fresh_, settings_.limits)) ||
+        (!stop_is_all && parking_.poll(*fresh_, now))) {
       fault_parking_ = FaultParking::none;
     }
   } catch (const StepFailure& failure) {
-    log_error(kComponent, std::string("the rig could not be parked: ") + failure.what());
-    fault_parking_ = FaultParking::none;
-    if (parking_.waits_for_stop()) leave_to_the_watchdog(failure.what());
+    const bool unstopped = parking_.waits_for_stop();
+    give_parking_up(failure.what());
+    if (unstopped) leave_to_the_watchdog(failure.what());
   }
+}
+
+/// A daemon that starts knows of nothing that may be at work.
+void Job::stop_what_is_found(TimePoint now) {
+  if (!fresh_ || !stops_what_it_finds_) return;
+  stops_what_it_finds_ = false;
+  if (seen_at_rest_) return;
+  add_to_alarm("the rig was found at work and is stopped");
+  stop_wanted_ = !commands_.stop_now(now);
+  stop_wanted_since_ = now;
+}
+
+void Job::give_parking_up(const std::string& why) {
+  fault_parking_ = FaultParking::none;
+  add_to_alarm("the rig could not be parked: " + why);
+  if (fresh_ && wheel_turns(*fresh_, settings_.limits)) leave_to_the_watchdog("the wheel turns");
 }
 
 /// The wheel may still turn. A controller that hears no heartbeat any more stops it by itself.
 void Job::leave_to_the_watchdog(const std::string& why) {
   if (std::exchange(heartbeat_withheld_, true)) return;
-  const std::string cause = "the stop is not confirmed (" + why +
-                            "): the controller's watchdog is left to stop the wheel; look whether "
-                            "it stands";
+  add_to_alarm("the stop is not confirmed (" + why +
+               "): the controller's watchdog is left to stop the wheel; look whether it stands");
+}
+
+void Job::add_to_alarm(const std::string& cause) {
   log_error(kComponent, cause);
   note("alarm", cause);
   alarm_->cause += "; " + cause;
@@ -102,8 +130,7 @@ void Job::break_off_parking(const std::string& cause, TimePoint now) {
   stop_wanted_ = !commands_.stop_now(now);
   stop_wanted_since_ = now;
   fault_parking_ = FaultParking::wanted;
-  log_error(kComponent, "the parking was broken off: " + cause);
-  note("alarm", "the parking was broken off: " + cause);
+  add_to_alarm("the parking was broken off: " + cause);
 }
 
 }  // namespace biotomy::acquisition

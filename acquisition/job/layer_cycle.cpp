@@ -89,8 +89,8 @@ void LayerCycle::begin(JobState step, const bridge::StageStatus& status, TimePoi
       begin_assessment();
       break;
     case JobState::storing:
+      begin_storing();  // first: a lamp that does not go out is no reason to lose the frame
       parts_.lines.set(bridge::OutputRole::lamp, false);
-      begin_storing();
       break;
     default:
       break;
@@ -275,7 +275,7 @@ void LayerCycle::abandon(const std::string& why) {
       }
       let_go(std::move(frame), records);
     });
-  } else if (in_hand_ && !stored_.valid()) {
+  } else if (in_hand_ && !stored_.valid() && !in_hand_->is_recorded) {
     parts_.keeper.post([frame = std::move(in_hand_), let_go](SampleRecords& records) mutable {
       let_go(*frame, records);
       frame.reset();

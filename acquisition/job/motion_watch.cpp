@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "acquisition/job/stage_checks.hpp"
-
 namespace biotomy::acquisition {
 namespace {
 
@@ -24,15 +22,10 @@ std::string sentence(const char* format, Values... values) {
 MotionWatch::MotionWatch(const SafetyLimits& limits) : limits_(limits) {}
 
 void MotionWatch::forget() {
-  leave_rest();
+  at_rest_.reset();
   stays_.reset();
   stir_.reset();
   cause_.reset();
-}
-
-void MotionWatch::leave_rest() {
-  at_rest_.reset();
-  wheel_stood_ = false;
 }
 
 MotionWatch::Axes MotionWatch::axes_of(const bridge::StageStatus& status) {
@@ -50,17 +43,16 @@ void MotionWatch::observe(const bridge::StageStatus& status, TimePoint now) {
   cause_.reset();
   // A short command begins and ends between two looks, both of which find an idle controller.
   if (std::exchange(last_command_, status.sequence_started) != status.sequence_started) {
-    leave_rest();
+    at_rest_.reset();
   }
   switch (status.state) {
     case bridge::ControllerState::idle:
       stays_.reset();
       stir_.reset();
       cause_ = drifted(axes);
-      if (const auto starts = wheel_started(status); !cause_) cause_ = starts;
       return;
     case bridge::ControllerState::busy:
-      leave_rest();
+      at_rest_.reset();
       cause_ = stalled(axes, now);
       if (const auto still = standing_still(status, now); !cause_) cause_ = still;
       return;
@@ -80,16 +72,6 @@ std::optional<std::string> MotionWatch::drifted(const Axes& axes) {
                     axes[i].name, left_at.value, axes[i].position.value);
   }
   return std::nullopt;
-}
-
-/// A wheel that still runs down, or has ground and is about to be retracted, is none that starts.
-std::optional<std::string> MotionWatch::wheel_started(const bridge::StageStatus& status) {
-  if (wheel_stands(status)) {
-    wheel_stood_ = true;
-    return std::nullopt;
-  }
-  if (!wheel_stood_) return std::nullopt;
-  return sentence("the wheel turns by itself: it stood and turns at %.0f rpm", status.spindle_rpm);
 }
 
 std::optional<std::string> MotionWatch::stalled(const Axes& axes, TimePoint now) {

@@ -11,9 +11,9 @@
 
 namespace biotomy::acquisition {
 
-/// Watches that axes and wheel do what they should: move while they are on their way, and stay where
-/// they are, or at rest, while the controller is idle. It sees what no limit of a step sees in time:
-/// a motor that stalls, a column that sinks, a spindle that does not start, or starts unasked.
+/// Watches that the axes do what they should: move while they are on their way, and stay where they
+/// are while the controller is idle. It sees what no limit of a step sees in time: a motor that
+/// stalls, a column that sinks, a spindle that does not start.
 class MotionWatch {
  public:
   explicit MotionWatch(const SafetyLimits& limits);
@@ -48,9 +48,7 @@ class MotionWatch {
   };
 
   static Axes axes_of(const bridge::StageStatus& status);
-  void leave_rest();
   std::optional<std::string> drifted(const Axes& axes);
-  std::optional<std::string> wheel_started(const bridge::StageStatus& status);
   std::optional<std::string> stalled(const Axes& axes, TimePoint now);
   std::optional<std::string> standing_still(const bridge::StageStatus& status, TimePoint now);
   bool near(bridge::Micrometres a, bridge::Micrometres b) const;
@@ -58,7 +56,6 @@ class MotionWatch {
 
   SafetyLimits limits_;
   std::optional<Axes> at_rest_;     ///< where the idle controller left them
-  bool wheel_stood_ = false;        ///< while the controller is idle
   std::uint32_t last_command_ = 0;  ///< that was started, by the controller's echo
   std::optional<std::array<Stay, kAxes>> stays_;
   std::optional<Stir> stir_;

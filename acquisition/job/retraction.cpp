@@ -22,7 +22,7 @@ bool Retraction::poll(const bridge::StageStatus& status, TimePoint now) {
     retracted_ = true;
   }
   spindle_rpm_ = status.spindle_rpm;
-  return wheel_stands(status);
+  return wheel_stands(status, limits_);
 }
 
 std::string Retraction::waiting_for() const {

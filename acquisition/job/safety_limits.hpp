@@ -14,6 +14,8 @@ struct SafetyLimits {
   bridge::Micrometres position_tolerance{5.0};
   std::chrono::milliseconds axis_stall{3000};   ///< an axis that is not at its target, unmoved
   std::chrono::milliseconds standstill{30000};  ///< a command under way, and nothing moves at all
+  double wheel_stands_rpm = 5.0;                ///< an encoder at rest may show as much
+  std::chrono::milliseconds wheel_delay{500};   ///< where it must stand, it turns for so long
   double spindle_load_maximum_percent = 95.0;
   std::chrono::milliseconds spindle_load_delay{1000};  ///< above it for so long
   /// Beyond it, vibration of a medium-sized machine is harmful (ISO 10816-1, annex B, class II).

@@ -7,14 +7,14 @@
 #include "acquisition/job/step_failure.hpp"
 
 namespace biotomy::acquisition {
-namespace {
 
-constexpr double kStandsRpm = 5.0;
+bool wheel_stands(const bridge::StageStatus& status, const SafetyLimits& limits) {
+  return std::abs(status.spindle_rpm) <= limits.wheel_stands_rpm;
+}
 
-}  // namespace
-
-bool wheel_stands(const bridge::StageStatus& status) {
-  return std::abs(status.spindle_rpm) <= kStandsRpm;
+bool wheel_turns(const bridge::StageStatus& status, const SafetyLimits& limits) {
+  constexpr double kClearly = 3.0;
+  return std::abs(status.spindle_rpm) > kClearly * limits.wheel_stands_rpm;
 }
 
 void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,

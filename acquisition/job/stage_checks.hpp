@@ -5,8 +5,11 @@
 
 namespace biotomy::acquisition {
 
-/// Whether the wheel stands; an encoder may show a little of one that does.
-bool wheel_stands(const bridge::StageStatus& status);
+/// Whether the wheel stands.
+bool wheel_stands(const bridge::StageStatus& status, const SafetyLimits& limits);
+
+/// Whether it clearly does not, where it must.
+bool wheel_turns(const bridge::StageStatus& status, const SafetyLimits& limits);
 
 /// Throws StepFailure when the axis is not where it should be.
 void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 
+#include "acquisition/job/stage_checks.hpp"
+
 namespace biotomy::acquisition {
 namespace {
 
@@ -75,6 +77,7 @@ void Supervision::observe(const std::optional<bridge::StageStatus>& status,
   temperature_.observe(!is_in_window(limits_, status->block_temperature_c), now);
   load_.observe(status->spindle_load_percent > limits_.spindle_load_maximum_percent, now);
   vibration_.observe(status->vibration_mm_s > limits_.vibration_maximum_mm_s, now);
+  wheel_.observe(wheel_turns(*status, limits_), now);
   motion_.observe(*status, now);
   last_exchange_ = now;
   status_ = *status;
@@ -156,6 +159,12 @@ std::optional<StopCause> Supervision::temperature_cause() const {
   if (!temperature_.lasts(limits_.temperature_delay, now_)) return std::nullopt;
   return StopCause{AlarmKind::temperature,
                    outside_window_text(limits_, status_.block_temperature_c)};
+}
+
+std::optional<StopCause> Supervision::wheel_cause() const {
+  if (!wheel_.lasts(limits_.wheel_delay, now_)) return std::nullopt;
+  return StopCause{AlarmKind::wheel, "the wheel turns at " + with_unit(status_.spindle_rpm, "rpm") +
+                                         " where it must stand: look at its drive"};
 }
 
 std::optional<std::string> temperature_complaint(const SafetyLimits& limits,

@@ -33,6 +33,9 @@ class Supervision {
   /// That the block is outside its window of temperature for too long to work on it.
   std::optional<StopCause> temperature_cause() const;
 
+  /// That the wheel turns, for the states in which it must stand.
+  std::optional<StopCause> wheel_cause() const;
+
   /// Why the latch must not be opened: as `cause`, but without what resetting the controller cures.
   std::optional<StopCause> standing_cause() const;
 
@@ -60,6 +63,7 @@ class Supervision {
   Excess temperature_;
   Excess load_;
   Excess vibration_;
+  Excess wheel_;
   MotionWatch motion_;
   TimePoint now_{};
 };

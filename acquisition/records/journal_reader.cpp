@@ -270,4 +270,16 @@ std::string JournalReader::last_state() const {
   });
 }
 
+// An acknowledgement, like all that goes on after it, is a state that is not `faulted`.
+std::string JournalReader::standing_alarm() const {
+  return with_journal(state_->path, [&] {
+    return state_->database
+        .execAndGet(
+            "SELECT coalesce((SELECT text FROM events WHERE kind = 'alarm' AND id > coalesce("
+            "(SELECT max(id) FROM events WHERE kind = 'state' AND state <> 'faulted'), 0) "
+            "ORDER BY id LIMIT 1), '')")
+        .getString();
+  });
+}
+
 }  // namespace biotomy::acquisition

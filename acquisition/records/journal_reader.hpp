@@ -59,6 +59,9 @@ class JournalReader {
   /// first.
   std::string last_state() const;
 
+  /// The alarm that stopped the job, if nobody has acknowledged it; empty if there is none.
+  std::string standing_alarm() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

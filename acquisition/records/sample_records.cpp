@@ -112,6 +112,7 @@ std::uint64_t SampleRecords::commit_layer(JudgedFrame& frame) {
     row.assessment.slug = "not-stored";
     row.assessment.reason = error.what();
     journal_.record_attempt(row);
+    frame.is_recorded = true;
     throw;
   }
   row.file = std::filesystem::relative(path, sample_.path()).string();

@@ -30,6 +30,7 @@ struct JudgedFrame {
   bridge::Micrometres column{};
   bridge::StageStatus telemetry;
   reconstruct::PublishLayer prepared = {};  ///< its layer; empty if nobody has prepared it
+  bool is_recorded = false;                 ///< in the journal, as one that could not be stored
 };
 
 /// All that is written of a sample but the volume: layer images, rejected frames, the journal.

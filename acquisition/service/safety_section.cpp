@@ -26,6 +26,10 @@ SafetyLimits read_safety(const CheckedTable& table) {
   safety.standstill =
       duration(table, "standstill_ms", safety.standstill,
                "a command during which nothing at all moves for so long stops the rig", 100);
+  safety.wheel_stands_rpm =
+      number(table, "wheel_stands_rpm", safety.wheel_stands_rpm, "rpm", 0.1, 1000.0,
+             "a wheel that shows no more counts as standing; three times as much where it must "
+             "stand stops the rig");
   safety.spindle_load_maximum_percent =
       number(table, "spindle_load_maximum_percent", safety.spindle_load_maximum_percent, "%", 1.0,
              1000.0, "a higher load of the spindle stops the rig");

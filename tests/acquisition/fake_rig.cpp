@@ -37,7 +37,7 @@ bridge::StageIdentity FakeStage::identify() {
 }
 
 bridge::StageStatus FakeStage::look() {
-  if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
+  if (silent || blind) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (!heart_stopped) ++status.controller_heartbeat;
   if (under_way_ && --exchanges_left_ <= 0) finish();
   aim();

@@ -30,6 +30,7 @@ struct FakeStage : bridge::Stage {
   int unanswered_identities = 0;        ///< so many times it does not say what it is
   bool silent = false;                  ///< no exchange and no command succeeds
   bool heart_stopped = false;           ///< controller_heartbeat stands still
+  bool blind = false;                   ///< takes heartbeats and commands, and shows nothing
   bool wheel_runs_on = false;           ///< once it turns, whatever is commanded
   bool interlocked = false;             ///< refuses every command but stop
   std::optional<double> feed_error_um;  ///< the wheel comes to rest beside its target

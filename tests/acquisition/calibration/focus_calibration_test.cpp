@@ -350,6 +350,8 @@ TEST_P(FocusCalibrationInMotion, StopsTheStageWhenItIsAborted) {
   EXPECT_TRUE(bench.say(OperatorCommand::abort).accepted);
   ASSERT_EQ(bench.stage.executed.size(), executed + 1);
   EXPECT_EQ(bench.stage.executed.back().command.action, StageAction::stop);
+  EXPECT_EQ(calibration().progress, Progress::running) << "the stop is not yet carried out";
+  bench.tick(2);
   EXPECT_EQ(calibration().progress, Progress::failed);
   EXPECT_EQ(calibration().sentence, "it was given up: abort");
   EXPECT_FALSE(lit());
@@ -359,10 +361,20 @@ TEST_P(FocusCalibrationInMotion, StopsTheStageWhenItIsAborted) {
   EXPECT_EQ(calibration().progress, Progress::done) << calibration().sentence;
 }
 
+TEST_P(FocusCalibrationInMotion, IsAFaultWhenItsStopIsNotCarriedOut) {
+  calibrate_until(GetParam());
+  bench.stage.ignored = StageAction::stop;
+  EXPECT_TRUE(bench.say(OperatorCommand::abort).accepted);
+  ASSERT_TRUE(bench.reach(JobState::faulted, 300));
+  EXPECT_EQ(calibration().progress, Progress::failed);
+  EXPECT_THAT(bench.alarm(), HasSubstr("does not start it"));
+}
+
 TEST_P(FocusCalibrationInMotion, StopsTheStageWhenTheDaemonIsStopped) {
   calibrate_until(GetParam());
   EXPECT_TRUE(bench.say(OperatorCommand::shut_down).accepted);
   EXPECT_EQ(bench.stage.executed.back().command.action, StageAction::stop);
+  bench.tick(2);
   EXPECT_EQ(calibration().progress, Progress::failed);
   EXPECT_TRUE(bench.job->at_rest());
 }

@@ -52,9 +52,50 @@ TEST(JobRecovery, PhotographsWithoutGrindingWhenThePassEndedUnseen) {
   JobBench bench;
   die_in(bench, JobState::grinding, 3);
   while (bench.stage.ground().size() < 3) bench.tick();  // the pass has begun
+  while (bench.stage.status.state == bridge::ControllerState::busy) bench.stage.look();
   restart(bench);
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.stage.ground().size(), 5U);
+}
+
+TEST(JobRecovery, StopsAPassThatItFindsUnderWayAndRepeatsIt) {
+  JobBench bench;
+  die_in(bench, JobState::grinding, 3);
+  while (bench.stage.ground().size() < 3) bench.tick();
+  bench.stage.exchanges_per_command = 1000;
+  int beats = 0;
+  bench.stage.on_exchange = [&beats] { ++beats; };
+  bench.start_daemon();
+  bench.tick();
+  EXPECT_EQ(beats, 0) << "the watchdog of a wheel that it did not start is not fed";
+  EXPECT_EQ(bench.stage.executed.back().command.action, bridge::StageAction::stop);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the rig was found at work and is stopped"));
+  bench.stage.exchanges_per_command = 2;
+  bench.tick(5);
+  EXPECT_GT(beats, 0);
+  bench.stage.on_exchange = [] {};
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0, 1020.0, 1040.0, 1040.0, 1060.0, 1080.0));
+}
+
+TEST(JobRecovery, StopsAWheelThatItFindsTurning) {
+  JobBench bench;
+  bench.stage.status.spindle_rpm = 1500.0;
+  bench.stage.wheel_runs_on = true;
+  bench.start_daemon();
+  int beats = 0;
+  bench.stage.on_exchange = [&beats] { ++beats; };
+  bench.tick(50);
+  EXPECT_EQ(beats, 0);
+  EXPECT_EQ(bench.stage.count(bridge::StageAction::stop), 1);
+  EXPECT_THAT(bench.say(OperatorCommand::acknowledge).sentence,
+              HasSubstr("the wheel still turns, at 1500 rpm"));
+  bench.stage.status.spindle_rpm = 0.0;
+  bench.stage.wheel_runs_on = false;
+  bench.tick(2);
+  EXPECT_GT(beats, 0);
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
 }
 
 TEST(JobRecovery, StopsWhenTheControllerHasGroundFurtherThanTheJournalKnows) {

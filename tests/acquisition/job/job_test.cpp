@@ -223,8 +223,9 @@ TEST(Job, RecordsARejectedFrameWhosePictureCannotBeKept) {
   std::ofstream(rejected) << "no folder";
   bench.camera.black_frames = 1;
   ASSERT_TRUE(bench.reach(JobState::faulted));
-  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'too-dark' AND file = '' AND "
-                                         "reason LIKE '%no picture of it is kept%'"),
+  EXPECT_EQ(bench.count_rows("attempts",
+                             "layer = 2 AND slug = 'too-dark' AND file = '' AND "
+                             "reason LIKE '%no picture of it is kept%'"),
             1);
 }
 

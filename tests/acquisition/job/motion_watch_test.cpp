@@ -137,31 +137,6 @@ TEST(MotionWatch, SaysNothingOfAFaultedControllerThatRetractsByItself) {
   EXPECT_EQ(machine.cause(), "");
 }
 
-TEST(MotionWatch, SeesAWheelThatStartsWhileTheControllerIsIdle) {
-  Watched machine(ControllerState::idle);
-  machine.look(milliseconds(100));
-  machine.status.spindle_rpm = 40.0;
-  machine.look(milliseconds(20));
-  EXPECT_EQ(machine.cause(), "the wheel turns by itself: it stood and turns at 40 rpm");
-}
-
-TEST(MotionWatch, LetsAWheelTurnThatHasGroundOrRunsDown) {
-  Watched machine(ControllerState::idle);
-  machine.look(milliseconds(100));
-  machine.status.state = ControllerState::busy;
-  machine.status.spindle_rpm = 1500.0;
-  machine.look(milliseconds(100));
-  machine.status.state = ControllerState::idle;
-  machine.look(milliseconds(100));
-  EXPECT_EQ(machine.cause(), "");
-  machine.status.spindle_rpm = 700.0;
-  machine.look(milliseconds(100));
-  EXPECT_EQ(machine.cause(), "");
-  machine.status.spindle_rpm = 1.0;  // an encoder's noise
-  machine.look(milliseconds(100));
-  EXPECT_EQ(machine.cause(), "");
-}
-
 TEST(MotionWatch, ForgetsWhereTheAxesWereWhenItIsTold) {
   Watched machine(ControllerState::idle);
   machine.look(milliseconds(100));
