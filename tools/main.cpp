@@ -38,7 +38,8 @@ int main(int argc, char** argv) {
     // Asked here and not by CLI11, which would say this of a misspelt command too.
     if (app.get_subcommands().empty()) return fail(kUsage, "say what to do; see biotomy --help");
   } catch (const CLI::Success& request) {  // --help, --version
-    return app.exit(request);
+    const int code = app.exit(request);
+    return std::cout.flush() ? code : fail(kFailure, "standard output takes no more");
   } catch (const CLI::ParseError& error) {
     return fail(kUsage, error.what());
   } catch (const std::invalid_argument& error) {
@@ -46,5 +47,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(kFailure, error.what());
   }
+  // What was asked for may have gone to a file on a full disk.
+  if (!std::cout.flush()) return fail(kFailure, "standard output takes no more: is its disk full?");
   return 0;
 }

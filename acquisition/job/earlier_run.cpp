@@ -31,7 +31,8 @@ EarlierRun read_earlier_run(const std::filesystem::path& journal) {
   const JournalReader reader(journal);
   return {.last_sequence = reader.last_sequence(),
           .was_running = is_at_work(reader.last_state()),
-          .alarm = reader.standing_alarm()};
+          .alarm = reader.standing_alarm(),
+          .committed = reader.committed_count()};
 }
 
 EarlierRun take_over_earlier_run(const std::filesystem::path& sample, const std::string& utc) {

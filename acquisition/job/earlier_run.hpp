@@ -11,6 +11,7 @@ struct EarlierRun {
   std::uint32_t last_sequence = 0;  ///< the highest command number; 0 if none
   bool was_running = false;         ///< nobody stopped it: the daemon crashed, or the power was cut
   std::string alarm;                ///< that nobody acknowledged; empty if none
+  std::int64_t committed = 0;       ///< layers that are safe
 };
 
 /// Reads it from the journal; a journal that is not there tells of nothing. Throws JournalError.

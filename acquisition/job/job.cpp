@@ -87,6 +87,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
                            settings.plan.after_restart == JobPlan::AfterRestart::go_on),
       conditioning_(settings_.limits) {
   commands_.raise_to(earlier.last_sequence);
+  committed_ = earlier.committed;
   start_up_latch_ = earlier.alarm.empty();
   alarm_ = Alarm{start_up_latch_
                      ? "the daemon has just started: look at the rig, then acknowledge"

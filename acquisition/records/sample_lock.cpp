@@ -7,11 +7,18 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include "reconstruct/absolute_folder.hpp"
+
 namespace biotomy::acquisition {
 
 namespace {
 
-std::filesystem::path lock_file_of(const std::filesystem::path& sample) {
+/// By whatever name the sample is called, also by a symbolic link's, it is one file.
+std::filesystem::path lock_file_of(const std::filesystem::path& called) {
+  std::error_code error;
+  std::filesystem::path sample =
+      std::filesystem::weakly_canonical(reconstruct::absolute_folder(called), error);
+  if (error) sample = reconstruct::absolute_folder(called);
   std::string name = ".";
   name += sample.filename().string();
   name += ".lock";
@@ -29,7 +36,7 @@ SampleLock::SampleLock(const std::filesystem::path& sample) {
   }
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
     throw SampleLockError("another biotomyd works on the sample " + sample.string() +
-                          ": stop it first");
+                          ", or biotomy rebuild: stop it, or wait for its end");
   }
 }
 

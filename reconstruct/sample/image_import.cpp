@@ -36,6 +36,16 @@ constexpr std::size_t kBytesInFlightBesideABand = 512 * kMiB;
 constexpr std::size_t kBytesBehind = 256 * kMiB;
 constexpr int kThreadsBehind = 4;  // that wait for the disk at the same time
 
+void check_spacing(const Vector3& spacing) {
+  for (const double each : {spacing.x, spacing.y, spacing.z}) {
+    if (!is_spacing(each)) {
+      throw InvalidRequest(
+          "the distance between voxels, also of the coarser levels, must be from 1e-6 to 1e9 "
+          "micrometres");
+    }
+  }
+}
+
 Vector3 spacing_of(const std::variant<VoxelSpacing, StackSize>& scale, const GridSize& size) {
   Vector3 spacing;
   if (const auto* stack = std::get_if<StackSize>(&scale)) {
@@ -44,11 +54,7 @@ Vector3 spacing_of(const std::variant<VoxelSpacing, StackSize>& scale, const Gri
   } else {
     spacing = std::get<VoxelSpacing>(scale).um;
   }
-  for (const double each : {spacing.x, spacing.y, spacing.z}) {
-    if (!is_spacing(each)) {
-      throw InvalidRequest("the distance between voxels must be from 1e-6 to 1e9 micrometres");
-    }
-  }
+  check_spacing(spacing);
   return spacing;
 }
 
@@ -60,6 +66,9 @@ SampleDescription description_of(const ImageSequence& images, const ImportReques
   description.bits = images.bits();
   description.cuboid.size = {images.size().width, images.size().height, images.count()};
   description.cuboid.spacing = spacing_of(request.scale, description.cuboid.size);
+  for (const LevelFactor& factor : pyramid_factors(description.cuboid, request.layout.chunk)) {
+    check_spacing(pyramid_level(description.cuboid, factor).spacing);
+  }
   return description;
 }
 

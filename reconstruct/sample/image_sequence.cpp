@@ -49,9 +49,15 @@ std::vector<NumberedName> names_in_folder(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
+    std::error_code status;
     if (is_image_name(path) && path.filename().string().front() != '.' &&
-        entry.is_regular_file(error)) {
-      if (auto name = cut(path)) {
+        !entry.is_directory(status)) {
+      auto name = cut(path);
+      if (name && !entry.is_regular_file(status)) {
+        throw SampleError(path.string() +
+                          ": is no file, or a link that leads nowhere: take it away");
+      }
+      if (name) {
         names.push_back(*std::move(name));
       }
     }

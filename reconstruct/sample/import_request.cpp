@@ -65,7 +65,9 @@ json import_record(const ImageSequence& images, const ImportRequest& request) {
             {"interleaved", layout.interleaved}}}};
 }
 
-std::optional<std::string> import_difference(const json& begun, const json& asked) {
+std::optional<std::string> import_difference(
+    const json& begun, const json& asked,
+    const std::function<bool(std::int64_t layer)>& is_stored) {
   for (const Named& option : kOptions) {
     if (begun.value(option.key, json()) != asked.at(option.key)) {
       return option.name;
@@ -77,7 +79,10 @@ std::optional<std::string> import_difference(const json& begun, const json& aske
     return "the number of images";
   }
   for (std::size_t i = 0; i < now.size(); ++i) {
-    if (images[i] != now[i]) {
+    const bool is_same = is_stored(static_cast<std::int64_t>(i) + 1)
+                             ? images[i] == now[i]
+                             : images[i].value("path", "") == now[i].at("path");
+    if (!is_same) {
       return "the image " + now[i].at("path").get<std::string>();
     }
   }

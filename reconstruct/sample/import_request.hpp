@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -45,8 +46,9 @@ struct ImportRequest {
 nlohmann::json import_record(const ImageSequence& images, const ImportRequest& request);
 
 /// In what an import that was begun is another than the one that is asked now; none when they are
-/// the same.
-std::optional<std::string> import_difference(const nlohmann::json& begun,
-                                             const nlohmann::json& asked);
+/// the same. An image of a layer that is not stored yet may have been mended meanwhile.
+std::optional<std::string> import_difference(
+    const nlohmann::json& begun, const nlohmann::json& asked,
+    const std::function<bool(std::int64_t layer)>& is_stored);
 
 }  // namespace biotomy::reconstruct

@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "reconstruct/absolute_folder.hpp"
@@ -27,6 +28,13 @@ using nlohmann::json;
 
 constexpr const char* kRequestName = "request.json";
 constexpr const char* kSampleName = "sample";
+
+bool is_mount_point(const fs::path& folder) {
+  struct stat here {};
+  struct stat above {};
+  return ::stat(folder.c_str(), &here) == 0 && ::stat(folder.parent_path().c_str(), &above) == 0 &&
+         here.st_dev != above.st_dev;
+}
 
 std::string file_of(const SampleFolder& sample, std::int64_t layer) {
   return sample.layer_path(layer).lexically_relative(sample.path()).string();
@@ -58,6 +66,14 @@ PartialImport::PartialImport(const fs::path& output, const SampleDescription& de
 
 void PartialImport::refuse_if_taken() const {
   std::error_code error;
+  // The finished sample takes the place of an empty folder by a rename, which these do not let
+  // happen.
+  if (fs::is_symlink(output_, error)) {
+    throw SampleError(output_.string() + ": is a symbolic link: name the folder that it leads to");
+  }
+  if (fs::exists(output_, error) && is_mount_point(output_)) {
+    throw SampleError(output_.string() + ": is a mount point: name a folder in it, or beside it");
+  }
   if (fs::exists(output_, error) &&
       !(fs::is_directory(output_, error) && fs::is_empty(output_, error))) {
     if (fs::exists(folder_ / kRequestName, error) && !fs::exists(folder_ / kSampleName, error)) {
@@ -81,11 +97,6 @@ bool PartialImport::take_up(const json& asked) {
     throw SampleError((folder_ / kRequestName).string() +
                       ": is damaged; give --restart to begin anew");
   }
-  if (const auto difference = import_difference(begun, asked)) {
-    throw SampleError(output_.string() + ": another import of it was begun, in which " +
-                      *difference +
-                      " was another; repeat that to go on, or give --restart to begin anew");
-  }
   sample_ = SampleFolder::open(folder_ / kSampleName);
   remove_unfinished_writes(sample_->path());
   if (fs::exists(hashes_path(), error)) {
@@ -97,6 +108,15 @@ bool PartialImport::take_up(const json& asked) {
       stored_[each.file] = each.sha256;
     }
     write_durably(hashes_path(), layer_hash_lines(hashes));  // without a line that was cut off
+  }
+  const auto stored = [this](std::int64_t layer) { return is_stored(layer); };
+  if (const auto difference = import_difference(begun, asked, stored)) {
+    throw SampleError(output_.string() + ": another import of it was begun, in which " +
+                      *difference +
+                      " was another; repeat that to go on, or give --restart to begin anew");
+  }
+  if (begun != asked) {
+    write_durably(folder_ / kRequestName, asked.dump(1) + "\n");
   }
   return true;
 }

@@ -36,12 +36,19 @@ Structure structure_of(const TiffFile& file) {
   const auto bits = file.number<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
   const auto sample_format = file.number<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const auto compression = file.number<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-  if (!is_image_size(width, height) || samples == 0 || samples > kMostSamples) {
+  if (!is_image_size(width, height)) {
     file.fail("its size makes no sense");
   }
+  if (samples == 0 || samples > kMostSamples) {
+    file.fail("has " + std::to_string(samples) + " samples a pixel: convert it to grey or RGB");
+  }
   if ((bits != 8 && bits != 16) || sample_format != SAMPLEFORMAT_UINT) {
-    file.fail("has " + std::to_string(bits) +
-              " bits a colour; expected 8 or 16 bits, unsigned: convert it");
+    const char* const kind = sample_format == SAMPLEFORMAT_UINT     ? "unsigned"
+                             : sample_format == SAMPLEFORMAT_INT    ? "signed"
+                             : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
+                                                                    : "other";
+    file.fail("has colours of " + std::to_string(bits) + " bits, " + kind +
+              "; expected 8 or 16 bits, unsigned: convert it");
   }
   if (TIFFIsCODECConfigured(compression) == 0) {
     file.fail("is compressed in a way that this libtiff does not know: convert it");
@@ -128,10 +135,38 @@ std::vector<cv::Mat> read_samples(const TiffFile& file, const Structure& structu
   return samples;
 }
 
+/// Turns to the one picture in the file, past smaller copies of it and masks.
+void go_to_picture(const TiffFile& file) {
+  std::vector<tdir_t> pictures;
+  const tdir_t pages = TIFFNumberOfDirectories(file.get());
+  for (tdir_t page = 0; page < pages; ++page) {
+    if (TIFFSetDirectory(file.get(), page) == 0) {
+      file.fail("is damaged: its page " + std::to_string(page + 1) + " cannot be read");
+    }
+    const auto kind = file.number<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0);
+    if ((kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0) {
+      pictures.push_back(page);
+    }
+  }
+  if (pictures.size() != 1) {
+    file.fail("holds " + std::to_string(pictures.size()) +
+              " pictures; expected one: split it into files, numbered by their layers");
+  }
+  TIFFSetDirectory(file.get(), pictures.front());
+}
+
+/// Of each pixel, those that the file declares to be no colours, as alpha is.
+int extra_samples(const TiffFile& file) {
+  std::uint16_t count = 0;
+  std::uint16_t* kinds = nullptr;
+  return TIFFGetField(file.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds) == 1 ? count : 0;
+}
+
 }  // namespace
 
 cv::Mat read_tiff_image(const std::filesystem::path& path) {
   const TiffFile file = TiffFile::open(path);
+  go_to_picture(file);
   if (file.number<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_JPEG) {
     TIFFSetField(file.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);  // rather than YCbCr
   }
@@ -147,8 +182,13 @@ cv::Mat read_tiff_image(const std::filesystem::path& path) {
     cv::merge(read_samples(file, structure, 3), rgb);
     return rgb;
   }
-  if (structure.photometric == PHOTOMETRIC_MINISBLACK ||
-      structure.photometric == PHOTOMETRIC_MINISWHITE) {
+  const bool is_grey = structure.photometric == PHOTOMETRIC_MINISBLACK ||
+                       structure.photometric == PHOTOMETRIC_MINISWHITE;
+  if (is_grey && structure.samples - extra_samples(file) > 1) {
+    file.fail("has " + std::to_string(structure.samples) +
+              " samples a pixel and says that they are grey: convert it to RGB");
+  }
+  if (is_grey) {
     cv::Mat grey = read_samples(file, structure, 1).front();
     if (structure.photometric == PHOTOMETRIC_MINISWHITE) {
       cv::bitwise_not(grey, grey);

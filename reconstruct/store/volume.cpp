@@ -314,13 +314,21 @@ Volume Volume::open(std::unique_ptr<ObjectReader> objects) {
 
 Volume Volume::of_sample(const SampleFolder& sample) {
   const std::filesystem::path path = sample.volume_path();
+  const SampleDescription& description = sample.description();
   // A writer makes the metadata first, and its group last: shards without it are a damaged volume.
   std::error_code error;
   if (std::filesystem::exists(path / kMetadataName, error) ||
       std::filesystem::exists(path / level_path(0) / "c", error)) {
-    return open(path);
+    Volume volume = open(path);
+    if (volume.cuboid().size != description.cuboid.size ||
+        volume.cuboid().spacing != description.cuboid.spacing ||
+        volume.bits() != description.bits) {
+      throw SampleError(path.string() +
+                        ": does not fit the sample's description: one of the two was changed; "
+                        "biotomy verify tells more");
+    }
+    return volume;
   }
-  const SampleDescription& description = sample.description();
   ZarrArray array;
   array.size = description.cuboid.size;
   array.bits = description.bits;

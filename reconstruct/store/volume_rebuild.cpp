@@ -56,6 +56,16 @@ std::int64_t count_layers(const SampleFolder& sample) {
   return last;
 }
 
+/// What the volume that is there shows; 0 where there is none, or none that can be read.
+std::int64_t layers_shown(const fs::path& volume) {
+  const fs::path path = volume / kMetadataName;
+  try {
+    return parse_group_metadata(read_metadata_file(path), path.string()).layers_present;
+  } catch (const SampleError&) {
+    return 0;
+  }
+}
+
 VolumeLayout layout_of(const fs::path& volume) {
   const fs::path path = volume / level_path(0) / kMetadataName;
   try {
@@ -72,6 +82,13 @@ std::int64_t rebuild_volume(const SampleFolder& sample,
                             const StopRequested& stop) {
   const std::int64_t layers = count_layers(sample);
   const fs::path place = sample.volume_path();
+  if (const std::int64_t shown = layers_shown(place); shown > layers) {
+    throw SampleError(sample.layer_path(layers + 1).string() +
+                      ": is missing, and the volume shows " + std::to_string(shown) +
+                      " layers, of which a rebuild would lose " + std::to_string(shown - layers) +
+                      ": put the files back, or move " + place.string() +
+                      " away to have a volume without them");
+  }
   const fs::path fresh = place.parent_path() / ("." + place.filename().string() + ".partial");
   remove_folder(fresh);  // of a rebuild that was killed
   const UnfinishedFolder unfinished(fresh);

@@ -193,6 +193,38 @@ TEST_F(CrashedDaemon, WaitsForAnOperatorWhileTheDoorIsOpen) {
   EXPECT_EQ(bench.state(), JobState::idle);
 }
 
+TEST_F(CrashedDaemon, WaitsForAnOperatorOnceTheDoorWasOpen) {
+  bench.start_daemon();
+  bench.tick(10);
+  bench.lines.inputs.door_open = true;
+  bench.tick(1);
+  bench.lines.inputs.door_open = false;
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("since the door is open"));
+}
+
+TEST(EarlierRun, TellsOfAnAlarmThatNobodyAcknowledged) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
+  bench.stage.status.vibration_mm_s = 12.0;
+  ASSERT_TRUE(bench.reach(JobState::faulted));
+  bench.stage.status.vibration_mm_s = 0.0;
+  bench.tick(50);
+  EXPECT_THAT(read_earlier_run(journal(bench)).alarm, HasSubstr("the spindle vibrates"));
+
+  bench.start_daemon();
+  bench.tick(3);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the spindle vibrates"));
+  EXPECT_EQ(bench.board.look()->committed, bench.count_rows("layers")) << "known from the start";
+  EXPECT_THAT(bench.say(OperatorCommand::start).sentence, HasSubstr("acknowledge it first"));
+  EXPECT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(read_earlier_run(journal(bench)).alarm, "");
+}
+
 TEST_F(CrashedDaemon, WaitsForAnOperatorWhenTheControllerHasAnotherFault) {
   bench.stage.status.fault_code = kDrive;
   bench.start_daemon();

@@ -26,6 +26,18 @@ TEST(SampleLock, KeepsASecondDaemonAwayAsLongAsTheFirstLives) {
   EXPECT_NO_THROW(SampleLock{sample});
 }
 
+TEST(SampleLock, IsOneUnderAllNamesOfASample) {
+  const TemporaryFolder folder;
+  const auto sample = folder.path() / "knee";
+  std::filesystem::create_directory(sample);
+  std::filesystem::create_directory_symlink(sample, folder.path() / "link");
+  const SampleLock lock(sample);
+  for (const char* name : {"link", "knee/", "link/"}) {
+    EXPECT_THROW(SampleLock{folder.path() / name}, SampleLockError) << name;
+    EXPECT_TRUE(SampleLock::is_held(folder.path() / name)) << name;
+  }
+}
+
 TEST(SampleLock, SaysThatTheFolderAroundTheSampleIsMissing) {
   EXPECT_THAT([] { const SampleLock lock("/nowhere/at/all/knee"); },
               ThrowsMessage<SampleLockError>(HasSubstr("does the folder exist?")));

@@ -210,6 +210,24 @@ TEST_F(ImageImport, MayFillAnEmptyFolder) {
   EXPECT_NO_THROW(import());
 }
 
+TEST_F(ImageImport, RefusesAnOutputThatIsALink) {
+  save_layers(2);
+  std::filesystem::create_directory(folder_ / "elsewhere");
+  std::filesystem::create_directory_symlink(folder_ / "elsewhere", request_.output);
+  EXPECT_THAT(message_of<SampleError>([&] { import(); }), HasSubstr("is a symbolic link"));
+}
+
+TEST_F(ImageImport, RefusesSpacingsOfWhichACoarserLevelMakesNoSense) {
+  save_layers(2);
+  request_.scale = VoxelSpacing{{1e8, 1e8, 1e8}};
+  request_.layout.chunk = {1, 2, 2};
+  request_.layout.shard = {1, 4, 4};
+  EXPECT_NO_THROW(import());
+  std::filesystem::remove_all(request_.output);
+  request_.scale = VoxelSpacing{{5e8, 5e8, 5e8}};
+  EXPECT_THROW(import(), InvalidRequest);
+}
+
 TEST_F(ImageImport, RefusesASpacingOfZero) {
   save_layers(2);
   request_.scale = VoxelSpacing{{1.0, 0.0, 1.0}};

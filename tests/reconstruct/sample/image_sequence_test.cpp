@@ -67,6 +67,12 @@ TEST_F(Sequence, DoesNotLookAtOtherThingsInTheFolder) {
   EXPECT_THAT(names(find()), testing::ElementsAre("5.png"));
 }
 
+TEST_F(Sequence, NamesALinkThatLeadsNowhere) {
+  save("5.png");
+  std::filesystem::create_symlink("nowhere.png", folder_.path() / "6.png");
+  EXPECT_THAT(error(), testing::HasSubstr("6.png: is no file"));
+}
+
 TEST_F(Sequence, NamesAMissingNumber) {
   save("a08.png");
   save("a10.png");

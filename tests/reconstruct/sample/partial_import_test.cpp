@@ -103,6 +103,14 @@ TEST_F(APartialImport, KeepsASecondOneAwayWhileItIsAtWork) {
   EXPECT_THAT(message_of<SampleError>([&] { take(true); }), HasSubstr("another import"));
 }
 
+TEST_F(APartialImport, DoesNotMindAnImageThatWasMendedBeforeItsLayerWasStored) {
+  store(take(), 1);
+  save_rgb(folder_ / "2.png", test_image(8, 6, CV_8UC3, 5));
+  EXPECT_EQ(take().stored_layers(), 1);
+  save_rgb(folder_ / "1.png", test_image(8, 6, CV_8UC3, 6));
+  EXPECT_THAT(refusal(), HasSubstr("1.png"));
+}
+
 TEST_F(APartialImport, TellsInWhatAnotherRequestDiffersAndOffersToBeginAnew) {
   store(take(), 1);
   const ImportRequest begun = request_;
@@ -121,8 +129,8 @@ TEST_F(APartialImport, TellsInWhatAnotherRequestDiffersAndOffersToBeginAnew) {
   request_.layer_format.compression = LayerCompression::deflate;
   EXPECT_THAT(refusal(), HasSubstr("compression"));
   request_ = begun;
-  save_rgb(folder_ / "2.png", test_image(8, 6, CV_8UC3, 5));
-  EXPECT_THAT(refusal(), HasSubstr("2.png"));
+  save_rgb(folder_ / "1.png", test_image(8, 6, CV_8UC3, 5));
+  EXPECT_THAT(refusal(), HasSubstr("1.png"));
   save_rgb(folder_ / "3.png", test_image(8, 6));
   EXPECT_THAT(refusal(), HasSubstr("number of images"));
   EXPECT_EQ(take(true).stored_layers(), 0);

@@ -22,11 +22,14 @@ struct TiffKnobs {
   int bits = 8;
   int samples_per_pixel = 3;
   int compression = COMPRESSION_LZW;
+  const char* mode = "w";  ///< "a" adds a page
+  int subfile = 0;
 };
 
 void write_strips(const std::filesystem::path& path, const cv::Mat& rows, int width, int height,
                   const TiffKnobs& knobs) {
-  TIFF* tiff = TIFFOpen(path.c_str(), "w");
+  TIFF* tiff = TIFFOpen(path.c_str(), knobs.mode);
+  TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, knobs.subfile);
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, knobs.bits);
@@ -84,6 +87,26 @@ TEST_F(TiffImage, FurtherChannelsAreDropped) {
   write_strips(path_, cv::Mat(4, 4, CV_8UC4, cv::Scalar(1, 2, 3, 0)), 4, 4,
                {.samples_per_pixel = 4});
   EXPECT_EQ(read_tiff_image(path_).at<cv::Vec3b>(1, 1), cv::Vec3b(1, 2, 3));
+}
+
+TEST_F(TiffImage, IsReadPastItsSmallCopies) {
+  const cv::Mat image = test_image(33, 50);
+  write_strips(path_, test_image(3, 5), 3, 5, {.subfile = FILETYPE_REDUCEDIMAGE});
+  write_strips(path_, image, 33, 50, {.mode = "a"});
+  EXPECT_TRUE(same_pixels(read_tiff_image(path_), image));
+}
+
+TEST_F(TiffImage, RefusesAStackInOneFile) {
+  write_strips(path_, test_image(3, 5), 3, 5, {});
+  write_strips(path_, test_image(3, 5), 3, 5, {.mode = "a"});
+  EXPECT_THAT(message_of<SampleError>([&] { read_tiff_image(path_); }),
+              testing::HasSubstr("holds 2 pictures"));
+}
+
+TEST_F(TiffImage, RefusesColoursThatAreCalledGrey) {
+  write_strips(path_, test_image(4, 4), 4, 4, {.photometric = PHOTOMETRIC_MINISBLACK});
+  EXPECT_THAT(message_of<SampleError>([&] { read_tiff_image(path_); }),
+              testing::HasSubstr("says that they are grey"));
 }
 
 TEST_F(TiffImage, RefusesBitsAndColoursThatItWouldGetWrong) {

@@ -90,6 +90,18 @@ TEST_F(VolumeRebuild, RefusesWhenALayerIsMissingInTheMiddleOrAllAre) {
   EXPECT_THAT(names(), UnorderedElementsAre("sample.toml", "layers", "rejected"));
 }
 
+TEST_F(VolumeRebuild, LosesNoLayersOfWhichOnlyTheVolumeIsLeft) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto appended = volume_contents();
+  std::filesystem::remove(sample_.layer_path(12));
+  std::filesystem::remove(sample_.layer_path(13));
+  EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }),
+              AllOf(HasSubstr("000012.tif"), HasSubstr("would lose 2")));
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
+  std::filesystem::rename(sample_.volume_path(), folder_ / "aside");
+  EXPECT_EQ(rebuild_volume(sample_), 11);
+}
+
 TEST_F(VolumeRebuild, LeavesTheOldVolumeWhenALayerIsDamaged) {
   VolumeWriter(sample_, layout_).append(13, true);
   const auto appended = volume_contents();
