@@ -69,19 +69,10 @@ std::string name_of(const Options& options) {
   return reconstruct::utf8_text(reconstruct::absolute_folder(options.output).filename().string());
 }
 
-void check_text(const char* option, const std::string& text) {
-  if (!reconstruct::is_utf8(text)) {
-    throw reconstruct::InvalidRequest(std::string(option) +
-                                      ": must be UTF-8; set the terminal's encoding to it");
-  }
-}
-
 reconstruct::ImportRequest request_of(const Options& options) {
   if (options.spacing.empty() == options.size.empty()) {
     throw reconstruct::InvalidRequest("give either --spacing X,Y,Z or --size X,Y,Z");
   }
-  check_text("--name", options.name);
-  check_text("--notes", options.notes);
   reconstruct::ImportRequest request;
   request.output = options.output;
   request.name = name_of(options);

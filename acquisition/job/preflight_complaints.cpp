@@ -70,6 +70,14 @@ Complaints stage_complaints(const JobSettings& settings, const bridge::StageIden
   if (const auto complaint = watchdog_complaint(settings.limits, stage)) {
     complaints.push_back(*complaint);
   }
+  // By a larger one a pass that went a layer too deep would pass for the right one.
+  if (settings.limits.position_tolerance.value > settings.plan.layer_thickness.value / 2.0) {
+    std::ostringstream text;
+    text << "safety.position_tolerance_um is " << settings.limits.position_tolerance.value
+         << " and must be at most half of job.layer_thickness_um, which is "
+         << settings.plan.layer_thickness.value;
+    complaints.push_back(text.str());
+  }
   for (const std::int64_t layer : {std::int64_t{1}, settings.plan.layers}) {
     const bridge::Micrometres face = settings.plan.face_of(layer);
     if (!inside(face, stage.feed)) {

@@ -82,6 +82,7 @@ std::vector<UniqueFd> take_descriptors(msghdr& header) {
 
 bool somebody_listens(const sockaddr_un& address) {
   const UniqueFd probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!probe.valid()) fail("rig socket: cannot look whether somebody listens", errno);
   const int result =
       ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
   return result == 0 || errno == EAGAIN;  // EAGAIN: it has callers enough

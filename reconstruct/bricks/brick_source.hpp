@@ -33,11 +33,12 @@ class BrickSource {
   virtual std::size_t capacity_bytes() const = 0;
 
   /// The bricks of `wanted`, in its order. What has to be fetched is fetched together. Their texels
-  /// that lie near the plane are those of the level; others may mean nothing.
+  /// that lie near the plane are those of the level; others may mean nothing. `wanted` has no brick
+  /// twice; all are of the level. Throws SampleError.
   virtual std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted,
                                          const PlaneReach& plane) = 0;
 
-  /// These will be asked for soon: whoever can may begin to read them. Returns at once.
+  /// These will be asked for soon: whoever can may begin to read them. Does not wait for them.
   virtual void expect(int level, std::span<const ChunkIndex> soon, const PlaneReach& plane) = 0;
 };
 

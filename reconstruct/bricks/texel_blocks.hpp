@@ -30,7 +30,9 @@ class TexelBlocks {
   int row_bytes() const { return (kSide + 1) * texel_bytes(); }  ///< of a block's row
   int block_bytes() const { return kBlockLevels * level_bytes_; }
   int block_row_bytes() const { return blocks_x_ * block_bytes(); }  ///< from a block to that below
-  int layer_bytes() const { return blocks_y_ * block_row_bytes() + 1 * block_bytes(); }
+  /// With a block to spare: were it a power of two, the texels above each other would share a set
+  /// of the processor's cache.
+  int layer_bytes() const { return blocks_y_ * block_row_bytes() + block_bytes(); }
   std::size_t brick_bytes() const {
     return static_cast<std::size_t>(shape_[0]) * static_cast<std::size_t>(layer_bytes());
   }

@@ -22,6 +22,7 @@
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "reconstruct/store/write_behind.hpp"
+#include "reconstruct/utf8.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -239,6 +240,9 @@ std::string leave(PartialImport& partial) {
 
 SampleFolder import_images(const ImageSequence& images, const ImportRequest& request,
                            const ImportProgress& progress, const StopRequested& stop) {
+  if (!is_utf8(request.name) || !is_utf8(request.notes)) {
+    throw InvalidRequest("name and notes must be UTF-8; set the terminal's encoding to it");
+  }
   const SampleDescription description = description_of(images, request);
   check_layout(request.layout);
   PartialImport partial(request.output, description, import_record(images, request),

@@ -27,6 +27,7 @@ struct StackSize {
   Vector3 um;
 };
 
+/// What is to become of a stack of images. Texts are UTF-8.
 struct ImportRequest {
   std::filesystem::path output;  ///< the sample folder; must not exist, or be empty
   std::string name;

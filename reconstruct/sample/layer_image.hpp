@@ -61,7 +61,8 @@ StoredLayer write_layer_image(const std::filesystem::path& path, const cv::Mat& 
 /// truncated or not such an image.
 cv::Mat read_layer_image(const std::filesystem::path& path);
 
-/// Reads regions of one layer image without reading all of it. Not for two threads at once.
+/// Reads regions of one layer image without reading all of it. Not for two threads at once. Both
+/// constructor and `read` throw SampleError, which names the file.
 class LayerImageReader {
  public:
   explicit LayerImageReader(const std::filesystem::path& path);

@@ -91,7 +91,6 @@ class TilePlan {
   const std::array<VoxelPlaces, 3>& places() const { return places_; }
 
   const TexelBlocks& blocks() const { return blocks_; }
-  int side_x() const { return shape_[0]; }  ///< of a brick
 
  private:
   void set_box(Interpolation kind);

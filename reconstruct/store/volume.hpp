@@ -55,16 +55,16 @@ class Volume {
   ~Volume();
   Volume(Volume&&) noexcept;
 
-  const Cuboid& cuboid() const;  ///< of the whole job
-  int levels() const;            ///< at least 1
-  const PyramidLevel& level(int number) const;
+  const Cuboid& cuboid() const;                 ///< of the whole job
+  int levels() const;                           ///< at least 1
+  const PyramidLevel& level(int number) const;  ///< 0 to levels() − 1
   const VolumeLayout& layout() const;
   int bits() const;                     ///< of one colour, 8 or 16
   std::int64_t layers_present() const;  ///< as the metadata said when it was opened
 
   /// Reads and decodes one chunk of a level; one that was never written is null (all fill value).
   /// Throws SampleError on a damaged chunk or shard, and on a missing one when the metadata says
-  /// that every shard is stored.
+  /// that every shard is stored. `level` and `index` are of the volume.
   std::shared_ptr<const ChunkVoxels> read_chunk(int level, ChunkIndex index) const;
 
   /// Takes one of many chunks: `which` counts in the order of the indices asked for; `voxels` is
@@ -83,7 +83,8 @@ class Volume {
   /// Whether to read some layers of a chunk may be less work than to read all.
   bool decodes_by_layers() const;
 
-  /// These will be read soon: their bytes may be fetched from the disk meanwhile. Returns at once.
+  /// These will be read soon: their bytes may be fetched from the disk meanwhile. Waits for no
+  /// bytes of chunks, but reads the indexes of shards that were not read yet.
   void expect_chunks(int level, std::span<const ChunkIndex> soon) const;
 
   const ReadStatistics& statistics() const;

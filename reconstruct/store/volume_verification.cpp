@@ -50,7 +50,6 @@ struct ShardPlace {
 /// A shard on its way from reading to decoding.
 struct ReadShard {
   fs::path path;
-  std::size_t level = 0;
   std::optional<StoredShard> shard;
   std::string fault;  ///< of reading it
 };
@@ -253,7 +252,6 @@ class VolumeVerification {
         return nullptr;
       }
       auto shard = std::make_shared<ReadShard>();
-      shard->level = shards[next].level;
       shard->path = shard_path(shards[next++]);
       try {
         shard->shard = StoredShard::open(shard->path, arrays_[0]);

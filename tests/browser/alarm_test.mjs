@@ -93,7 +93,7 @@ test("a run is aborted only after the word was typed", async () => {
   const asked = page.getByRole("dialog", { name: "Abort" });
   const abort = asked.getByRole("button", { name: "Abort", exact: true });
   assert.ok(await abort.isDisabled());
-  await asked.getByLabel(/can’t be undone/).fill("abort");
+  await asked.getByLabel(/to confirm/).fill("abort");
   assert.ok(await abort.isEnabled());
   await page.keyboard.press("Escape");
   await asked.waitFor({ state: "hidden" });

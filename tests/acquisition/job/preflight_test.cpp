@@ -30,6 +30,14 @@ TEST(Preflight, RefusesAControllerThatDoesNotWatchTheDaemon) {
   expect_refusal(bench, "does not watch the daemon's heartbeat");
 }
 
+TEST(Preflight, RefusesAToleranceOfAWholeLayer) {
+  JobBench bench;
+  bench.settings.plan.layer_thickness = {5.0};
+  expect_refusal(bench,
+                 "safety.position_tolerance_um is 5 and must be at most half of "
+                 "job.layer_thickness_um, which is 5");
+}
+
 TEST(Preflight, RefusesALastLayerBeyondTheFeed) {
   JobBench bench;
   bench.stage.identity.feed.maximum = {1079.0};

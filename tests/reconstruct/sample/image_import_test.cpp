@@ -219,7 +219,7 @@ TEST_F(ImageImport, RefusesAnOutputThatIsALink) {
 
 TEST_F(ImageImport, RefusesSpacingsOfWhichACoarserLevelMakesNoSense) {
   save_layers(2);
-  request_.scale = VoxelSpacing{{1e8, 1e8, 1e8}};
+  request_.scale = VoxelSpacing{{1e7, 1e7, 1e7}};
   request_.layout.chunk = {1, 2, 2};
   request_.layout.shard = {1, 4, 4};
   EXPECT_NO_THROW(import());

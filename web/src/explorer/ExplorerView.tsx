@@ -39,6 +39,10 @@ export function ExplorerView() {
       tools.measured.value = null; // its places were on another plane
     });
   });
+  useSignalEffect(() => {
+    void state.frame.value; // of a series: another plane with each
+    untracked(() => (tools.measured.value = null));
+  });
   return (
     <main id="main" class="view explorer" data-view="explorer" tabIndex={-1}>
       <h1 class="visually-hidden">Explorer</h1>

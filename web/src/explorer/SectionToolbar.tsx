@@ -67,8 +67,10 @@ function toFullResolution(state: ExplorerState): void {
 const linkTo = (state: ExplorerState): string =>
   `${location.origin}${location.pathname}${linkOf(viewQuery(state.view.value))}`;
 
-/** At full resolution, whatever is on the screen. */
+/** At full resolution, whatever is on the screen; of a series, of the frame that is shown. */
 async function commandOf(state: ExplorerState): Promise<string> {
+  const frame = state.frame.value;
+  if (frame) return frame.picture.record.command;
   const query = state.query.value;
   if (!query) throw new Error("There is no section yet.");
   return (await fetchOutline({ ...query, format: "png" })).command;

@@ -12,6 +12,11 @@ export function Progress({ status }: { status: Status }) {
       <p class="progress-layer" data-role="layer" data-committed={committed}>
         {layerWords(status)}
       </p>
+      {rejection(status) && (
+        <p class="notice notice-bad" data-role="last-rejection">
+          {rejection(status)}
+        </p>
+      )}
       <progress
         class="progress-bar"
         aria-label="Layers stored"
@@ -44,6 +49,12 @@ function layerWords({ state, layer, layers, committed, attempt }: Status): strin
     return `Layer ${fixed(layer)} of ${fixed(layers)}${tries}`;
   }
   return `${fixed(committed)} of ${fixed(layers)} layers`;
+}
+
+/** Why the layer at hand needs another photograph; the list of rejected ones has the best of them last. */
+function rejection({ layer, last_attempt: last }: Status): string | null {
+  if (!last || last.layer !== layer || last.verdict !== "rejected") return null;
+  return `Attempt ${last.attempt} was rejected: ${last.reason}.`;
 }
 
 function DiskFact({ status }: { status: Status }) {

@@ -66,18 +66,20 @@ function Asked({ command }: { command: Command }) {
             name="reason"
             maxLength={500}
             autocomplete="off"
+            autofocus={!command.confirmWord}
             value={reason}
             onInput={(event) => setReason(event.currentTarget.value)}
           />
         </Field>
         {command.confirmWord && (
-          <Field label={`This can’t be undone. Type “${command.confirmWord}” to confirm.`}>
+          <Field label={`Type “${command.confirmWord}” to confirm.`}>
             <input
               type="text"
               name="confirmation"
               autocomplete="off"
               autocapitalize="none"
               spellcheck={false}
+              autofocus
               value={word}
               onInput={(event) => setWord(event.currentTarget.value)}
             />

@@ -9,7 +9,7 @@ export interface Command {
   kind: "plain" | "primary" | "danger";
   /** What it does, before it is given. */
   about: string;
-  /** The word to type before a command is given that can't be undone. */
+  /** The word to type before a command is given that gives something up. */
   confirmWord?: string;
 }
 
@@ -44,7 +44,7 @@ export const commands: Command[] = [
     label: "Abort",
     kind: "danger",
     about:
-      "The wheel stops at once and is parked, and the run ends; a photograph that is being taken is given up. Pause stops the rig without giving anything up.",
+      "The wheel stops at once and is parked, and the run ends; a photograph that is being taken is given up. What is stored stays, and Start goes on behind it. Pause stops the rig without giving anything up.",
     confirmWord: "abort",
   },
 ];

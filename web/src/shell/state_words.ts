@@ -71,7 +71,11 @@ export const stateWords: Record<JobState, Words> = {
   },
   paused: { short: "Paused", sentence: "The job is paused.", mood: "waiting" },
   done: { short: "Done", sentence: "The job is done: every layer is stored.", mood: "resting" },
-  aborted: { short: "Aborted", sentence: "The job was aborted.", mood: "resting" },
+  aborted: {
+    short: "Aborted",
+    sentence: "The job was aborted. Start goes on behind the last stored layer.",
+    mood: "resting",
+  },
   faulted: {
     short: "Stopped",
     sentence: "The rig has stopped and waits for you.",
