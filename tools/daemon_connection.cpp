@@ -77,7 +77,8 @@ std::string DaemonConnection::command(const std::string& name, const std::string
         std::string("a command needs the rig's token: give --token-file, or set ") +
         kTokenVariable);
   }
-  const std::string body = reason.empty() ? "{}" : json{{"reason", reconstruct::utf8_text(reason)}}.dump();
+  const std::string body =
+      reason.empty() ? "{}" : json{{"reason", reconstruct::utf8_text(reason)}}.dump();
   const std::string text =
       answer(client_.Post("/api/v1/control/" + name, body, "application/json"));
   const json document = json::parse(text, nullptr, false);

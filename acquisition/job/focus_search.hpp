@@ -44,8 +44,8 @@ class FocusSearch {
   bool waits_for_frame() const { return measured_.valid(); }
   bool has_ended() const { return !autofocus_.next(); }
 
-  /// Breaks the search off. Gives what the frame under way will measure, if one is: it waits for it,
-  /// and gives nothing when the frame could not be taken.
+  /// Breaks the search off. Gives what the frame under way will measure, if one is: it waits for
+  /// it, and gives nothing when the frame could not be taken.
   std::function<std::optional<FocusRow::Point>()> break_off();
 
   /// After the end, as Autofocus gives them. The actuator stands where the focus was found.

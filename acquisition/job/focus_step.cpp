@@ -90,9 +90,9 @@ bool FocusStep::poll(const bridge::StageStatus& status, TimePoint now) {
 void FocusStep::abandon(const std::string& why) {
   if (!search_ || phase_ != Phase::search || search_->has_ended()) return;
   FocusRow row{.layer = layer_,
-                     .why = std::string(why_) + "; broken off: " + why,
-                     .column = focus_,
-                     .points = search_->points()};
+               .why = std::string(why_) + "; broken off: " + why,
+               .column = focus_,
+               .points = search_->points()};
   keeper_.post([row, last_point = search_->break_off()](SampleRecords& records) mutable {
     if (const auto last = last_point()) row.points.push_back(*last);
     if (!row.points.empty()) records.record_focus(row);

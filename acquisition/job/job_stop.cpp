@@ -94,9 +94,12 @@ void Job::park_after_fault(TimePoint now) {
   }
 }
 
-/// A daemon that starts knows of nothing that may be at work.
+/// A daemon that starts knows of nothing that may be at work. A controller that boots or is faulted
+/// halts what moves by itself.
 void Job::stop_what_is_found(TimePoint now) {
-  if (!fresh_ || !stops_what_it_finds_) return;
+  const bool decides = fresh_ && (fresh_->state == bridge::ControllerState::idle ||
+                                  fresh_->state == bridge::ControllerState::busy);
+  if (!decides || !stops_what_it_finds_) return;
   stops_what_it_finds_ = false;
   if (seen_at_rest_) return;
   add_to_alarm("the rig was found at work and is stopped");

@@ -42,8 +42,8 @@ LayerBand::LayerBand(const SampleFolder& sample, std::int64_t first, std::int64_
 std::vector<cv::Mat> LayerBand::read(const cv::Rect& region) const {
   std::vector<cv::Mat> layers(paths_.size());
   whole_loop(paths_.size(), [&](std::size_t i) {
-    layers[i] = i < readers_.size() ? readers_[i]->read(region)
-                                    : LayerImageReader(paths_[i]).read(region);
+    layers[i] =
+        i < readers_.size() ? readers_[i]->read(region) : LayerImageReader(paths_[i]).read(region);
   });
   return layers;
 }

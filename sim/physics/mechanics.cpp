@@ -48,8 +48,8 @@ void Mechanics::advance(double seconds) {
 
 void Mechanics::spin(double seconds) {
   const double reach = settings_.spindle_acceleration_rpm_s * seconds;
-  const double asked = defects_.spindle_runs_on ? std::max(spindle_rpm_, spindle_target_rpm_)
-                                               : spindle_target_rpm_;
+  const double asked =
+      defects_.spindle_runs_on ? std::max(spindle_rpm_, spindle_target_rpm_) : spindle_target_rpm_;
   const double target = defects_.spindle_blocked ? 0.0 : asked;
   spindle_rpm_ += std::clamp(target - spindle_rpm_, -reach, reach);
 }

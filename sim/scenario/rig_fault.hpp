@@ -175,14 +175,13 @@ struct CoolerFails {
   double time_constant_s = 300;  ///< with which the chamber warms
 };
 
-using RigFault =
-    std::variant<EstopPressed, DoorOpen, DoorBounces, LampDead, LampDims, LampFlickers,
-                 LampLightsUnevenly, LampChangesColour, FaceFrosts, FaceGlares, BlockShifts,
-                 CameraHangs, CameraVanishes, CameraGivesOldFrame, CameraTearsFrame,
-                 CameraGivesBlackFrame, CameraGivesWrongSize, ControllerPowerCut,
-                 ControllerHeartbeatStops, ModbusSilent, LinesSilent, AxisStalls, AxisCreeps,
-                 AxisReadsWrong, SpindleOverloaded, SpindleWontStart, SpindleWontStop,
-                 GrindRemovesNothing, GrindRemovesTooLittle, DebrisSticks, VibrationFromOutside, CoolerFails>;
+using RigFault = std::variant<
+    EstopPressed, DoorOpen, DoorBounces, LampDead, LampDims, LampFlickers, LampLightsUnevenly,
+    LampChangesColour, FaceFrosts, FaceGlares, BlockShifts, CameraHangs, CameraVanishes,
+    CameraGivesOldFrame, CameraTearsFrame, CameraGivesBlackFrame, CameraGivesWrongSize,
+    ControllerPowerCut, ControllerHeartbeatStops, ModbusSilent, LinesSilent, AxisStalls, AxisCreeps,
+    AxisReadsWrong, SpindleOverloaded, SpindleWontStart, SpindleWontStop, GrindRemovesNothing,
+    GrindRemovesTooLittle, DebrisSticks, VibrationFromOutside, CoolerFails>;
 
 /// The word by which scenarios call it.
 const char* name_of(const RigFault& fault);

@@ -319,8 +319,8 @@ class Judge {
     }
   }
 
-  /// A search that a kill broke off is not recorded, and its last frame is lost, whatever it was of;
-  /// a camera that fails may keep the last frame of a search for itself.
+  /// A search that a kill broke off is not recorded, and its last frame is lost, whatever it was
+  /// of; a camera that fails may keep the last frame of a search for itself.
   bool was_lost_by_a_stop(std::size_t place) const {
     const WitnessedFrame& frame = witness_.frames[place];
     std::string next_recorded;
@@ -337,11 +337,10 @@ class Judge {
     const bool killed = std::any_of(run_.kills.begin(), run_.kills.end(),
                                     [&](const Killed& kill) { return between(kill.at); });
     if (!is_last) return killed && frame.column_moved_next;
-    return killed ||
-           std::any_of(journal_.alarms.begin(), journal_.alarms.end(),
-                       [&](const RunJournal::Alarm& alarm) {
-                         return between(alarm.at) && alarm.state == "focusing";
-                       });
+    return killed || std::any_of(journal_.alarms.begin(), journal_.alarms.end(),
+                                 [&](const RunJournal::Alarm& alarm) {
+                                   return between(alarm.at) && alarm.state == "focusing";
+                                 });
   }
 
   const FinishedRun& run_;

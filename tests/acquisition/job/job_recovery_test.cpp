@@ -79,6 +79,21 @@ TEST(JobRecovery, StopsAPassThatItFindsUnderWayAndRepeatsIt) {
   EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0, 1020.0, 1040.0, 1040.0, 1060.0, 1080.0));
 }
 
+TEST(JobRecovery, LeavesAControllerAloneThatHaltsByItself) {
+  for (const auto state : {bridge::ControllerState::booting, bridge::ControllerState::faulted}) {
+    JobBench bench;
+    bench.stage.status.state = state;
+    bench.stage.status.spindle_rpm = 700.0;  // it runs down
+    bench.start_daemon();
+    bench.tick(10);
+    EXPECT_EQ(bench.stage.count(bridge::StageAction::stop), 0);
+    bench.stage.status.state = bridge::ControllerState::idle;
+    bench.stage.status.spindle_rpm = 0.0;
+    bench.tick(10);
+    EXPECT_EQ(bench.stage.count(bridge::StageAction::stop), 0);
+  }
+}
+
 TEST(JobRecovery, StopsAWheelThatItFindsTurning) {
   JobBench bench;
   bench.stage.status.spindle_rpm = 1500.0;
