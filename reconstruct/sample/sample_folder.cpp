@@ -54,7 +54,13 @@ void check(const SampleDescription& description, const fs::path& file) {
 }
 
 std::string to_toml(const SampleDescription& description) {
-  const auto quoted = [](const std::string& text) { return toml::value<std::string>(text); };
+  // In one line: of a text in several, TOML passes over the first line's end.
+  const auto quoted = [](const std::string& text) {
+    const toml::value<std::string> value(text);
+    std::ostringstream line;
+    line << toml::toml_formatter(value, toml::format_flags::none);
+    return line.str();
+  };
   const auto number = [](double value) { return toml::value<double>(value); };
   const Cuboid& cuboid = description.cuboid;
   std::ostringstream out;

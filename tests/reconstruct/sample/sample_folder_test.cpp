@@ -57,6 +57,20 @@ TEST(SampleFolder, IsTheSameWhenItIsOpenedAgain) {
   EXPECT_EQ(description.cuboid.spacing, example().cuboid.spacing);
 }
 
+TEST(SampleFolder, KeepsTextsAsTheyAre) {
+  const TemporaryFolder folder;
+  int number = 0;
+  for (const char* text :
+       {"\nabc", "a\n\nb\n", "a\tb", "\"a' \\ ''' b\"", "µm €", "\x01\x7f", ""}) {
+    SampleDescription description = example();
+    description.name = description.notes = text;
+    const auto path = folder.path() / std::to_string(++number);
+    SampleFolder::create(path, description);
+    EXPECT_EQ(SampleFolder::open(path).description().name, text);
+    EXPECT_EQ(SampleFolder::open(path).description().notes, text);
+  }
+}
+
 TEST(SampleFolder, IsNotMadeWhereAnythingElseIs) {
   const TemporaryFolder folder;
   for (const char* name : {"a/notes.txt", "b/layers/000001.tif", "c"}) {
