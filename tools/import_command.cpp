@@ -1,7 +1,6 @@
 #include <array>
 #include <chrono>
 #include <ctime>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,8 +18,6 @@
 
 namespace biotomy::tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kInterleaved = "interleaved";
 constexpr const char* kPlanar = "planar";
