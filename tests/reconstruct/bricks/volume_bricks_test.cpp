@@ -258,5 +258,16 @@ TEST_P(VolumeAsBricks, CountsEachDamagedChunkOnceAndTellsOneOfThem) {
   EXPECT_THAT(source.damage().first, HasSubstr("shorter than its index"));
 }
 
+TEST_P(VolumeAsBricks, DoesNotTakePaintOverForWhatTheVolumeHolds) {
+  damage(2);
+  const Volume volume = open();
+  VolumeBricks tolerant(volume, 10'000'000, {true, {10, 20, 30}});
+  tolerant.bricks(0, run_, kAllOfIt);
+  ASSERT_EQ(tolerant.damage().chunks, 1);
+  VolumeBricks strict(volume, 10'000'000, {}, nullptr, tolerant);
+  EXPECT_THAT(message_of<SampleError>([&] { strict.bricks(0, run_, kAllOfIt); }),
+              HasSubstr("chunk z 0, y 0, x 2 is damaged"));
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct

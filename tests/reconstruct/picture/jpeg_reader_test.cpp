@@ -86,6 +86,21 @@ TEST(JpegReader, RefusesWhatLibjpegWouldFillIn) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(JpegReader, TakesExtraneousBytesForDamageUnlessTold) {
+  const auto whole = encoded(test_image(200, 100));
+  auto file = whole;
+  file.insert(file.end() - 2, 100, std::byte{1});  // before the end marker
+  EXPECT_THAT(message_of<SampleError>([&] { decode_jpeg(file); }), HasSubstr("extraneous"));
+  EXPECT_TRUE(same_pixels(decode_jpeg(file, ExtraneousBytes::are_ignored), decode_jpeg(whole)));
+}
+
+TEST(JpegReader, TakesOtherDamageForWhatItIsAllTheSame) {
+  auto file = encoded(test_image(200, 100));
+  file.erase(file.begin() + static_cast<std::ptrdiff_t>(file.size() / 2), file.end() - 2);
+  EXPECT_THAT(message_of<SampleError>([&] { decode_jpeg(file, ExtraneousBytes::are_ignored); }),
+              HasSubstr("is damaged: "));
+}
+
 TEST(JpegReader, RefusesWhatIsNoJpeg) {
   EXPECT_THROW(decode_jpeg(std::vector<std::byte>(100, std::byte{7})), SampleError);
   EXPECT_THROW(decode_jpeg({}), SampleError);
