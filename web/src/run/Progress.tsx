@@ -51,7 +51,7 @@ function layerWords({ state, layer, layers, committed, attempt }: Status): strin
   return `${fixed(committed)} of ${fixed(layers)} layers`;
 }
 
-/** Why the layer at hand needs another photograph; the list of rejected ones has the best of them last. */
+/** Why the layer at hand needs another photograph. */
 function rejection({ layer, last_attempt: last }: Status): string | null {
   if (!last || last.layer !== layer || last.verdict !== "rejected") return null;
   return `Attempt ${last.attempt} was rejected: ${last.reason}.`;

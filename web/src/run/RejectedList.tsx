@@ -10,7 +10,7 @@ export function RejectedList() {
     <section class="rejected" aria-label="Rejected photographs">
       <h2>Rejected photographs: {fixed(count)}</h2>
       {shown.length === 0 ? (
-        <p class="muted">Every photograph so far was good enough.</p>
+        <p class="muted">None so far; the best one of a layer is listed when the layer is done.</p>
       ) : (
         <ol class="rejected-list">
           {shown.map(({ id, layer, attempt, reason, slug }) => (
