@@ -81,7 +81,7 @@ std::optional<std::string> import_difference(
   for (std::size_t i = 0; i < now.size(); ++i) {
     const bool is_same = is_stored(static_cast<std::int64_t>(i) + 1)
                              ? images[i] == now[i]
-                             : images[i].value("path", "") == now[i].at("path");
+                             : images[i].value("path", "") == now[i].at("path").get<std::string>();
     if (!is_same) {
       return "the image " + now[i].at("path").get<std::string>();
     }
