@@ -83,6 +83,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       supervision_(settings_.limits),
       homing_(commands_),
       parking_(commands_, settings_.limits),
+      fault_stop_(commands_, settings_.limits),
       may_go_on_by_itself_(earlier.was_running &&
                            settings.plan.after_restart == JobPlan::AfterRestart::go_on),
       conditioning_(settings_.limits) {
@@ -98,8 +99,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
 }
 
 bool Job::at_rest() const {
-  return is_at_rest(state_) && !calibration_ && fault_parking_ == FaultParking::none &&
-         !stop_wanted_;
+  return is_at_rest(state_) && !calibration_ && fault_stop_.is_over();
 }
 
 void Job::tick(TimePoint now) {
@@ -134,14 +134,12 @@ void Job::look_at_lines(TimePoint now) {
 void Job::exchange(TimePoint now) {
   fresh_.reset();
   try {
-    const bool beats = seen_at_rest_ && !heartbeat_withheld_;
-    fresh_ = beats ? parts_.stage.exchange(++heartbeat_) : parts_.stage.look();
+    fresh_ =
+        fault_stop_.gives_heartbeat() ? parts_.stage.exchange(++heartbeat_) : parts_.stage.look();
     if (!last_status_) {
       commands_.raise_to(std::max(fresh_->sequence_started, fresh_->sequence_finished));
     }
-    const bool is_idle = fresh_->state == bridge::ControllerState::idle ||
-                         fresh_->state == bridge::ControllerState::faulted;
-    seen_at_rest_ = seen_at_rest_ || (is_idle && wheel_stands(*fresh_, settings_.limits));
+    fault_stop_.observe(*fresh_);
     last_status_ = fresh_;
     silence_logged_ = false;
   } catch (const bridge::DeviceError& error) {
@@ -188,7 +186,7 @@ void Job::supervise(TimePoint now) {
 void Job::advance(TimePoint now) {
   if (calibration_) poll_calibration(now);
   if (state_ == JobState::faulted) {
-    park_after_fault(now);
+    for (const std::string& remark : fault_stop_.poll(fresh_, now)) add_to_alarm(remark);
     return;
   }
   if (is_at_rest(state_)) return;
@@ -411,8 +409,8 @@ std::string Job::waiting_for() const {
     case JobState::resetting:
       return "waits for the controller to leave its fault";
     case JobState::faulted:
-      return fault_parking_ == FaultParking::none ? "waits for an operator to acknowledge"
-                                                  : "waits for the rig to be parked";
+      return fault_stop_.is_over() ? "waits for an operator to acknowledge"
+                                   : "waits for the rig to be parked";
     case JobState::paused:
       return "waits for an operator to resume" +
              (pause_cause_.empty() ? std::string() : ": " + pause_cause_);

@@ -12,6 +12,7 @@
 #include "acquisition/job/conditioning.hpp"
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/early_notes.hpp"
+#include "acquisition/job/fault_stop.hpp"
 #include "acquisition/job/homing_step.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
@@ -121,12 +122,8 @@ class Job {
 
   /// Room for so many layers lets a job that is held for the disk go on.
   std::int64_t layers_needed() const;
-  void park_after_fault(TimePoint now);
   void break_off_parking(const std::string& cause, TimePoint now);
-  void give_parking_up(const std::string& why);
-  void stop_what_is_found(TimePoint now);
   void add_to_alarm(const std::string& cause);
-  void leave_to_the_watchdog(const std::string& why);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);
   void write_early_notes();
@@ -140,15 +137,12 @@ class Job {
   Supervision supervision_;
   HomingStep homing_;
   Parking parking_;
+  FaultStop fault_stop_;
 
   JobState state_ = JobState::faulted;
   std::optional<Alarm> alarm_;
-  bool start_up_latch_ = true;  ///< faulted only because the daemon has just started
-  /// Since the daemon started. Until then there is no heartbeat: what is found at work is nobody's,
-  /// and the controller's watchdog shall stop it.
-  bool seen_at_rest_ = false;
-  bool stops_what_it_finds_ = true;  ///< at work, once
-  bool temperature_alarm_ = false;   ///< of the alarm's cause
+  bool start_up_latch_ = true;      ///< faulted only because the daemon has just started
+  bool temperature_alarm_ = false;  ///< of the alarm's cause
   bool may_go_on_by_itself_ = false;
   bool went_on_by_itself_ = false;
   std::optional<TimePoint> good_since_;  ///< the rig, while it may go on by itself
@@ -167,7 +161,6 @@ class Job {
   bool job_begun_ = false;  ///< and neither done nor aborted
 
   std::uint16_t heartbeat_ = 0;
-  bool heartbeat_withheld_ = false;  ///< from a stop that was not taken until it is acknowledged
   std::optional<bridge::StageStatus> fresh_;  ///< of this tick; nothing when the exchange failed
   std::optional<bridge::StageStatus> last_status_;
   bool silence_logged_ = false;
@@ -175,12 +168,6 @@ class Job {
 
   TimePoint step_begin_{};
   bool step_command_begun_ = false;
-  enum class FaultParking { none, wanted, under_way } fault_parking_ = FaultParking::none;
-  bool fault_parking_only_stops_ = false;  ///< somebody may be near: nothing is moved any more
-  bool stop_wanted_ = false;
-  TimePoint stop_wanted_since_{};
-  TimePoint stop_tried_at_{};
-  TimePoint fault_park_until_{};
 
   std::future<PreflightFindings> inspection_;
   std::optional<bridge::StageIdentity> identity_;  ///< once the preflight has asked

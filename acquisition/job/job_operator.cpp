@@ -235,7 +235,7 @@ void Job::go_on_by_itself(TimePoint now) {
     return;
   }
   const bool ready = fresh_ && !standing && wheel_stands(*fresh_, settings_.limits) &&
-                     !stop_wanted_ && fresh_->state != bridge::ControllerState::busy &&
+                     fault_stop_.is_over() && fresh_->state != bridge::ControllerState::busy &&
                      fresh_->state != bridge::ControllerState::booting;
   if (!ready) {
     good_since_.reset();

@@ -137,7 +137,7 @@ std::optional<JobEvent> Job::poll_finishing(TimePoint now) {
 }
 
 void Job::begin_resetting(TimePoint now) {
-  heartbeat_withheld_ = false;
+  fault_stop_.acknowledge();
   const bool latched = fresh_ && (fresh_->state == bridge::ControllerState::faulted ||
                                   fresh_->interlocks.watchdog_tripped);
   if (!latched) return;
