@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/device_error.hpp"
@@ -84,9 +83,11 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       homing_(commands_),
       parking_(commands_, settings_.limits),
       fault_stop_(commands_, settings_.limits),
-      may_go_on_by_itself_(earlier.was_running &&
-                           settings.plan.after_restart == JobPlan::AfterRestart::go_on),
-      conditioning_(settings_.limits) {
+      unattended_restart_(
+          earlier.was_running && settings.plan.after_restart == JobPlan::AfterRestart::go_on,
+          settings_.limits),
+      conditioning_(settings_.limits),
+      hold_(settings_.limits) {
   commands_.raise_to(earlier.last_sequence);
   committed_ = earlier.committed;
   start_up_latch_ = earlier.alarm.empty();
@@ -163,7 +164,7 @@ void Job::supervise(TimePoint now) {
   if (is_layer_step(state_)) {
     if (const auto cause = supervision_.temperature_cause()) {
       if (settings_.limits.temperature_resumes) {
-        hold(HeldFor::temperature, cause->sentence, now);
+        hold(Hold::For::temperature, cause->sentence, now);
       } else {
         fault(*cause, now);
         temperature_alarm_ = true;
@@ -206,7 +207,7 @@ void Job::advance(TimePoint now) {
   } catch (const DiskFull& error) {
     count_committed(now);
     if (settings_.limits.disk_resumes && next_state(state_, JobEvent::hold)) {
-      hold(HeldFor::disk, error.what(), now);
+      hold(Hold::For::disk, error.what(), now);
     } else {
       fault({alarm_kind_of(error, state_), error.what()}, now);
     }
@@ -236,7 +237,7 @@ std::optional<JobEvent> Job::poll_step(TimePoint now) {
     case JobState::conditioning:
       return poll_conditioning(now);
     case JobState::held:
-      return poll_held(now);
+      return hold_.poll(*fresh_, *keeper_, now) ? std::optional(JobEvent::fit_again) : std::nullopt;
     case JobState::pausing:
     case JobState::withdrawing:
     case JobState::aborting:
@@ -292,11 +293,6 @@ void Job::enter(JobState state, TimePoint now) {
     case JobState::conditioning:
       conditioning_.begin(now);
       break;
-    case JobState::held:
-      conditioning_.begin(now);
-      disk_answer_ = {};
-      disk_asked_at_ = now;
-      break;
     case JobState::pausing:
     case JobState::withdrawing:
     case JobState::finishing:
@@ -339,30 +335,6 @@ void Job::begin_rest(TimePoint now) {
   if (starts) go(JobEvent::start, now);
 }
 
-void Job::hold(HeldFor what, const std::string& cause, TimePoint now) {
-  log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
-  note("alarm", "held: " + cause);
-  pause_cause_ = cause;
-  held_for_ = what;
-  try {
-    go(JobEvent::hold, now);
-  } catch (const std::exception& error) {
-    fault({alarm_kind_of(error, state_), error.what()}, now);
-  }
-}
-
-void Job::lamp_and_tower(bool tower) {
-  for (const auto& [role, on] : {std::pair{bridge::OutputRole::lamp, false},
-                                 std::pair{bridge::OutputRole::tower_light, tower}}) {
-    try {
-      parts_.lines.set(role, on);
-    } catch (const bridge::DeviceError& error) {
-      // Neither lamp nor tower light hold up the stop. A rig without a tower light says so here.
-      log_warning("lines", error.what());
-    }
-  }
-}
-
 void Job::note(const char* kind, const std::string& text) {
   JobEventRow row{kind, to_string(state_), cycle_ ? cycle_->layer() : 0, text,
                   utc_text(surroundings_.wall_clock())};
@@ -393,11 +365,7 @@ std::string Job::waiting_for() const {
     case JobState::conditioning:
       return conditioning_.waiting_for();
     case JobState::held:
-      return held_for_ == HeldFor::temperature
-                 ? conditioning_.waiting_for()
-                 : "waits for room on the disk: it has room for " +
-                       std::to_string(disk_left_layers_) + " layers and needs " +
-                       std::to_string(layers_needed());
+      return hold_.waiting_for();
     case JobState::pausing:
     case JobState::withdrawing:
     case JobState::aborting:

@@ -13,6 +13,7 @@
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/early_notes.hpp"
 #include "acquisition/job/fault_stop.hpp"
+#include "acquisition/job/hold.hpp"
 #include "acquisition/job/homing_step.hpp"
 #include "acquisition/job/job_settings.hpp"
 #include "acquisition/job/job_states.hpp"
@@ -26,6 +27,7 @@
 #include "acquisition/job/supervision.hpp"
 #include "acquisition/job/surroundings.hpp"
 #include "acquisition/job/time_left.hpp"
+#include "acquisition/job/unattended_restart.hpp"
 #include "acquisition/job/worker.hpp"
 #include "acquisition/records/record_keeper.hpp"
 
@@ -94,7 +96,6 @@ class Job {
   void confirm_calibration_stopped(TimePoint now);
   void end_calibration(CalibrationStatus::Progress progress, const std::string& sentence);
   void go_on_by_itself(TimePoint now);
-  void wait_for_a_person(const std::string& why);
   void advance(TimePoint now);
   void count_committed(TimePoint now);
   void publish();
@@ -103,7 +104,6 @@ class Job {
   std::optional<JobEvent> poll_preflight();
   std::optional<JobEvent> poll_recovering();
   std::optional<JobEvent> poll_conditioning(TimePoint now);
-  std::optional<JobEvent> poll_held(TimePoint now);
   std::optional<JobEvent> poll_finishing(TimePoint now);
   std::optional<JobEvent> poll_resetting(TimePoint now);
   void begin_preflight();
@@ -117,11 +117,8 @@ class Job {
   void begin_rest(TimePoint now);
 
   /// Temperature or disk are not as they should be, and the configuration lets the job wait.
-  enum class HeldFor { temperature, disk };
-  void hold(HeldFor what, const std::string& cause, TimePoint now);
+  void hold(Hold::For what, const std::string& cause, TimePoint now);
 
-  /// Room for so many layers lets a job that is held for the disk go on.
-  std::int64_t layers_needed() const;
   void break_off_parking(const std::string& cause, TimePoint now);
   void add_to_alarm(const std::string& cause);
   void lamp_and_tower(bool tower);
@@ -138,15 +135,13 @@ class Job {
   HomingStep homing_;
   Parking parking_;
   FaultStop fault_stop_;
+  UnattendedRestart unattended_restart_;
 
   JobState state_ = JobState::faulted;
   std::optional<Alarm> alarm_;
   bool start_up_latch_ = true;      ///< faulted only because the daemon has just started
   bool temperature_alarm_ = false;  ///< of the alarm's cause
-  bool may_go_on_by_itself_ = false;
   bool went_on_by_itself_ = false;
-  std::optional<TimePoint> good_since_;  ///< the rig, while it may go on by itself
-  std::optional<TimePoint> first_tick_;
   std::string pause_cause_;  ///< as in JobStatus
   struct Answer {
     std::promise<OperatorReply> promise;
@@ -173,10 +168,7 @@ class Job {
   std::optional<bridge::StageIdentity> identity_;  ///< once the preflight has asked
   PreflightFindings findings_;
   Conditioning conditioning_;
-  HeldFor held_for_ = HeldFor::temperature;
-  std::future<std::int64_t> disk_answer_;
-  TimePoint disk_asked_at_{};
-  std::int64_t disk_left_layers_ = 0;
+  Hold hold_;
   std::optional<RecordKeeper> keeper_;
   EarlyNotes early_notes_;
   std::optional<VolumeFeed> feed_;

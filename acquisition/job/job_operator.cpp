@@ -10,11 +10,6 @@
 namespace biotomy::acquisition {
 namespace {
 
-/// Before a job goes on by itself, the rig must have been good for so long, within so long.
-constexpr std::chrono::seconds kLookFor{2};
-constexpr std::chrono::seconds kLookLimit{60};
-constexpr std::uint16_t kWatchdogFault = 3;
-
 OperatorReply accepted(std::string sentence) {
   return {true, std::move(sentence)};
 }
@@ -50,7 +45,7 @@ void Job::hear_operator(TimePoint now) {
 }
 
 void Job::hear(OperatorDesk::Request& request, TimePoint now) {
-  may_go_on_by_itself_ = false;  // there is a person
+  unattended_restart_.give_up();
   OperatorReply reply;
   try {
     reply = obey(request.command, now);
@@ -220,35 +215,14 @@ std::vector<OperatorCommand> Job::accepted_commands() const {
 }
 
 void Job::go_on_by_itself(TimePoint now) {
-  if (!first_tick_) first_tick_ = now;
-  if (!may_go_on_by_itself_) return;
-  if (now - *first_tick_ > kLookLimit) {
-    wait_for_a_person("the rig was not ready within " +
-                      std::to_string(std::chrono::seconds(kLookLimit).count()) + " s");
-    return;
+  const auto [goes_on, why_not] =
+      unattended_restart_.poll(fresh_, supervision_.standing_cause(), !fault_stop_.is_over(), now);
+  if (!why_not.empty()) {
+    alarm_->cause = why_not;
+    log_warning("job", why_not);
+    note("alarm", why_not);
   }
-  // Somebody was there. Lines that cannot be read, or a link that is not up, may be so at a start.
-  const auto standing = supervision_.standing_cause();
-  if (standing &&
-      (standing->kind == AlarmKind::emergency_stop || standing->kind == AlarmKind::door)) {
-    wait_for_a_person(standing->sentence);
-    return;
-  }
-  const bool ready = fresh_ && !standing && wheel_stands(*fresh_, settings_.limits) &&
-                     fault_stop_.is_over() && fresh_->state != bridge::ControllerState::busy &&
-                     fresh_->state != bridge::ControllerState::booting;
-  if (!ready) {
-    good_since_.reset();
-    return;
-  }
-  // That its watchdog tripped is what a daemon that ended had to cause. Any other fault is news.
-  if (fresh_->state == bridge::ControllerState::faulted && fresh_->fault_code != kWatchdogFault) {
-    wait_for_a_person(std::string("the controller is faulted: ") + fault_text(fresh_->fault_code));
-    return;
-  }
-  if (!good_since_) good_since_ = now;
-  if (now - *good_since_ < kLookFor) return;
-  may_go_on_by_itself_ = false;
+  if (!goes_on) return;
   try {
     const OperatorReply reply = acknowledge(now);
     start_after_reset_ = went_on_by_itself_ = reply.accepted;
@@ -256,14 +230,6 @@ void Job::go_on_by_itself(TimePoint now) {
   } catch (const std::exception& error) {
     fault({alarm_kind_of(error, state_), error.what()}, now);
   }
-}
-
-void Job::wait_for_a_person(const std::string& why) {
-  may_go_on_by_itself_ = false;
-  alarm_->cause = "the job did not go on by itself after a restart, since " + why +
-                  ": look at the rig, then acknowledge";
-  log_warning("job", alarm_->cause);
-  note("alarm", alarm_->cause);
 }
 
 }  // namespace biotomy::acquisition

@@ -90,30 +90,6 @@ std::optional<JobEvent> Job::poll_conditioning(TimePoint now) {
   return continuation_->ground ? JobEvent::photograph_next : JobEvent::grind_next;
 }
 
-std::optional<JobEvent> Job::poll_held(TimePoint now) {
-  if (held_for_ == HeldFor::temperature) {
-    return conditioning_.poll(*fresh_, now) ? std::optional(JobEvent::fit_again) : std::nullopt;
-  }
-  if (disk_answer_.valid()) {
-    if (!is_ready(disk_answer_)) return std::nullopt;
-    disk_left_layers_ = disk_answer_.get();
-    if (disk_left_layers_ >= layers_needed()) return JobEvent::fit_again;
-  } else if (now - disk_asked_at_ >= settings_.limits.disk_look) {
-    disk_asked_at_ = now;
-    disk_answer_ =
-        keeper_->ask([](const SampleRecords& records) { return records.disk_left_layers(); });
-  }
-  return std::nullopt;
-}
-
-std::int64_t Job::layers_needed() const {
-  // Twice the reserve, so that the job does not come back for a single layer; and no less than what
-  // the preflight asks for.
-  const std::int64_t some = std::int64_t{2} * settings_.limits.disk_reserve_layers;
-  return settings_.limits.disk_for_whole_job ? std::max(some, settings_.plan.layers - committed_)
-                                             : some;
-}
-
 std::optional<JobEvent> Job::poll_finishing(TimePoint now) {
   if (!parking_.poll(*fresh_, now)) return std::nullopt;
   const VolumeFeed::Progress volume = feed_->progress();

@@ -1,12 +1,12 @@
-// How a job is stopped by a fault.
+// How a job is stopped by a fault, or made to wait.
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "acquisition/job/job.hpp"
-#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
+#include "firmware_bridge/device_error.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -29,7 +29,7 @@ void Job::fault(const StopCause& why, TimePoint now) {
   state_ = next_state(state_, JobEvent::alarm).value_or(JobState::faulted);
   start_up_latch_ = false;
   temperature_alarm_ = false;
-  may_go_on_by_itself_ = false;
+  unattended_restart_.give_up();
   start_after_reset_ = false;
   if (reset_answer_) answers_.push_back({std::move(*reset_answer_), {false, cause}});
   reset_answer_.reset();
@@ -56,6 +56,30 @@ void Job::add_to_alarm(const std::string& cause) {
 
 void Job::break_off_parking(const std::string& cause, TimePoint now) {
   if (fault_stop_.break_off(now)) add_to_alarm("the parking was broken off: " + cause);
+}
+
+void Job::hold(Hold::For what, const std::string& cause, TimePoint now) {
+  log_warning(kComponent, std::string("held while ") + to_string(state_) + ": " + cause);
+  note("alarm", "held: " + cause);
+  pause_cause_ = cause;
+  hold_.begin(what, settings_.plan.layers - committed_, now);
+  try {
+    go(JobEvent::hold, now);
+  } catch (const std::exception& error) {
+    fault({alarm_kind_of(error, state_), error.what()}, now);
+  }
+}
+
+void Job::lamp_and_tower(bool tower) {
+  for (const auto& [role, on] : {std::pair{bridge::OutputRole::lamp, false},
+                                 std::pair{bridge::OutputRole::tower_light, tower}}) {
+    try {
+      parts_.lines.set(role, on);
+    } catch (const bridge::DeviceError& error) {
+      // Neither lamp nor tower light hold up the stop. A rig without a tower light says so here.
+      log_warning("lines", error.what());
+    }
+  }
 }
 
 }  // namespace biotomy::acquisition
