@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/sample/sample_summary.hpp"
+#include "reconstruct/store/sample_summary.hpp"
 #include "tools/command.hpp"
 
 namespace biotomy::tools {

@@ -14,7 +14,7 @@
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/service/configuration.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "tools/command.hpp"

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/calibration/calibration_record.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 

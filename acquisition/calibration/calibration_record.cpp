@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/calibration/calibration_file.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/picture_notes.hpp"
+#include "reconstruct/picture/tiff_image.hpp"
 #include "reconstruct/picture/tiff_writer.hpp"
-#include "reconstruct/sample/tiff_image.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

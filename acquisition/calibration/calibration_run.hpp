@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::acquisition {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/calibration/calibration_plan.hpp"
 #include "acquisition/calibration/field_correction.hpp"
+#include "acquisition/settings/calibration_plan.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 
 namespace biotomy::acquisition {

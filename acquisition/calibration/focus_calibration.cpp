@@ -8,10 +8,9 @@
 #include "acquisition/calibration/calibration_record.hpp"
 #include "acquisition/calibration/focus_record.hpp"
 #include "acquisition/focus/depth_of_field.hpp"
-#include "acquisition/job/focus_actuators.hpp"
-#include "acquisition/job/preflight.hpp"
-#include "acquisition/job/preflight_complaints.hpp"
-#include "acquisition/job/stage_checks.hpp"
+#include "acquisition/rig/focus_actuators.hpp"
+#include "acquisition/rig/stage_checks.hpp"
+#include "acquisition/rig/stage_identity.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -6,7 +6,7 @@
 #include "acquisition/calibration/calibration_record.hpp"
 #include "acquisition/calibration/fitness.hpp"
 #include "acquisition/calibration/white_balance.hpp"
-#include "acquisition/job/capture.hpp"
+#include "acquisition/rig/capture.hpp"
 
 namespace biotomy::acquisition {
 namespace {

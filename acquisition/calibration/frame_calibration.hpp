@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/calibration/calibration_plan.hpp"
 #include "acquisition/calibration/calibration_run.hpp"
 #include "acquisition/calibration/mean_frame.hpp"
-#include "acquisition/job/job_plan.hpp"
-#include "acquisition/job/step_failure.hpp"
-#include "acquisition/job/worker.hpp"
+#include "acquisition/rig/step_failure.hpp"
+#include "acquisition/settings/calibration_plan.hpp"
+#include "acquisition/settings/job_plan.hpp"
+#include "acquisition/worker.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/lines/lines.hpp"
 

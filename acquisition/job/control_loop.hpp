@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 
 namespace biotomy::acquisition {
 

@@ -8,12 +8,12 @@
 #include "acquisition/focus/focus_actuator.hpp"
 #include "acquisition/focus/focus_memory.hpp"
 #include "acquisition/job/focus_report.hpp"
-#include "acquisition/job/focus_search.hpp"
-#include "acquisition/job/job_settings.hpp"
-#include "acquisition/job/step_failure.hpp"
-#include "acquisition/job/worker.hpp"
 #include "acquisition/quality/assessment.hpp"
 #include "acquisition/records/record_keeper.hpp"
+#include "acquisition/rig/focus_search.hpp"
+#include "acquisition/rig/step_failure.hpp"
+#include "acquisition/settings/job_settings.hpp"
+#include "acquisition/worker.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 
 namespace biotomy::acquisition {

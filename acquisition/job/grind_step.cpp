@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "acquisition/job/stage_checks.hpp"
+#include "acquisition/rig/stage_checks.hpp"
 
 namespace biotomy::acquisition {
 

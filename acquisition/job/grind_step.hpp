@@ -4,9 +4,9 @@
 #include <future>
 #include <optional>
 
-#include "acquisition/job/job_settings.hpp"
-#include "acquisition/job/stage_commands.hpp"
 #include "acquisition/records/record_keeper.hpp"
+#include "acquisition/rig/stage_commands.hpp"
+#include "acquisition/settings/job_settings.hpp"
 
 namespace biotomy::acquisition {
 

@@ -4,10 +4,10 @@
 #include <future>
 #include <string>
 
-#include "acquisition/job/conditioning.hpp"
-#include "acquisition/job/safety_limits.hpp"
-#include "acquisition/job/step_failure.hpp"
 #include "acquisition/records/record_keeper.hpp"
+#include "acquisition/rig/conditioning.hpp"
+#include "acquisition/rig/step_failure.hpp"
+#include "acquisition/settings/safety_limits.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::acquisition {

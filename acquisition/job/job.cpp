@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "acquisition/job/step_alarm.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/device_error.hpp"
@@ -35,6 +36,10 @@ bool is_layer_step(JobState state) {
 bool keeps_pause_cause(JobState from, JobState to) {
   return to == JobState::pausing || to == JobState::withdrawing || to == JobState::held ||
          (to == JobState::paused && from == JobState::pausing);
+}
+
+std::string after_colon(const std::string& why) {
+  return why.empty() ? "" : ": " + why;
 }
 
 std::chrono::milliseconds limit_of(JobState state, const JobSettings& settings) {
@@ -377,11 +382,11 @@ std::string Job::waiting_for() const {
     case JobState::resetting:
       return "waits for the controller to leave its fault";
     case JobState::faulted:
-      return fault_stop_.is_over() ? "waits for an operator to acknowledge"
-                                   : "waits for the rig to be parked";
+      if (!fault_stop_.is_over()) return "waits for the rig to be parked";
+      return "waits for an operator to acknowledge" +
+             (last_status_ ? after_colon(why_not_acknowledge().value_or("")) : "");
     case JobState::paused:
-      return "waits for an operator to resume" +
-             (pause_cause_.empty() ? std::string() : ": " + pause_cause_);
+      return "waits for an operator to resume" + after_colon(pause_cause_);
     default:
       return "";
   }

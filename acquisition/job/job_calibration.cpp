@@ -3,6 +3,7 @@
 #include "acquisition/calibration/focus_calibration.hpp"
 #include "acquisition/calibration/frame_calibration.hpp"
 #include "acquisition/job/job.hpp"
+#include "acquisition/job/step_alarm.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/device_error.hpp"

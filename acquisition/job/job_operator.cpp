@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "acquisition/job/job.hpp"
-#include "acquisition/job/stage_checks.hpp"
+#include "acquisition/job/step_alarm.hpp"
 #include "acquisition/log.hpp"
+#include "acquisition/rig/stage_checks.hpp"
 
 namespace biotomy::acquisition {
 namespace {

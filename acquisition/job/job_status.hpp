@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/alarm_kind.hpp"
 #include "acquisition/job/focus_report.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/judged_attempt.hpp"
@@ -15,6 +14,7 @@
 #include "acquisition/job/operator_desk.hpp"
 #include "acquisition/job/time_left.hpp"
 #include "acquisition/records/volume_feed.hpp"
+#include "acquisition/rig/alarm_kind.hpp"
 #include "firmware_bridge/lines/lines.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 

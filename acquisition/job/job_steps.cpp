@@ -4,8 +4,9 @@
 #include <variant>
 
 #include "acquisition/job/job.hpp"
-#include "acquisition/job/stage_checks.hpp"
 #include "acquisition/log.hpp"
+#include "acquisition/rig/stage_checks.hpp"
+#include "acquisition/rig/stage_identity.hpp"
 
 namespace biotomy::acquisition {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "acquisition/job/job.hpp"
+#include "acquisition/job/step_alarm.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/records/utc_time.hpp"
 #include "firmware_bridge/device_error.hpp"

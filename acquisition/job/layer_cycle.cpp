@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "acquisition/job/capture.hpp"
-#include "acquisition/job/focus_actuators.hpp"
+#include "acquisition/job/quality_ladder.hpp"
 #include "acquisition/log.hpp"
+#include "acquisition/rig/capture.hpp"
+#include "acquisition/rig/focus_actuators.hpp"
 
 namespace biotomy::acquisition {
 

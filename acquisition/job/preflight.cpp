@@ -1,11 +1,10 @@
 #include "acquisition/job/preflight.hpp"
 
-#include "acquisition/job/capture.hpp"
 #include "acquisition/job/job_states.hpp"
 #include "acquisition/job/preflight_complaints.hpp"
-#include "acquisition/job/step_failure.hpp"
 #include "acquisition/records/utc_time.hpp"
-#include "firmware_bridge/device_error.hpp"
+#include "acquisition/rig/capture.hpp"
+#include "acquisition/rig/step_failure.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -17,17 +16,6 @@ void refuse(const Complaints& complaints) {
 }
 
 }  // namespace
-
-std::optional<bridge::StageIdentity> ask_identity(bridge::Stage& stage) {
-  try {
-    return stage.identify();
-  } catch (const bridge::DeviceError& error) {
-    const bool may_answer_yet = error.kind() == bridge::DeviceError::Kind::timeout ||
-                                error.kind() == bridge::DeviceError::Kind::disconnected;
-    if (!may_answer_yet) throw;
-    return std::nullopt;
-  }
-}
 
 void check_stage(const JobSettings& settings, const bridge::StageIdentity& stage) {
   refuse(stage_complaints(settings, stage));

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/job/job_settings.hpp"
-#include "acquisition/job/surroundings.hpp"
 #include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/records/sample_records.hpp"
+#include "acquisition/records/surroundings.hpp"
+#include "acquisition/settings/job_settings.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
@@ -22,10 +22,6 @@ struct PreflightFindings {
   std::int64_t disk_left_layers = 0;
   RecalledFaces recalled;  ///< of the layers that are committed
 };
-
-/// What the stage says of itself; nothing when a line lost the question or the answer, which is no
-/// reason to stop: ask again at the next tick. Throws DeviceError.
-std::optional<bridge::StageIdentity> ask_identity(bridge::Stage& stage);
 
 /// Throws StepFailure when this stage cannot do this job.
 void check_stage(const JobSettings& settings, const bridge::StageIdentity& stage);

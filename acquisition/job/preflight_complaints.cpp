@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "acquisition/job/focus_actuators.hpp"
-#include "acquisition/job/lens_actuator.hpp"
-#include "acquisition/job/step_failure.hpp"
 #include "acquisition/number_text.hpp"
 #include "acquisition/records/utc_time.hpp"
+#include "acquisition/rig/focus_actuators.hpp"
+#include "acquisition/rig/lens_actuator.hpp"
+#include "acquisition/rig/stage_identity.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "firmware_bridge/camera/told_settings.hpp"
 
 namespace biotomy::acquisition {
@@ -57,13 +58,6 @@ void add_exposure_complaints(const bridge::Frame& frame, const bridge::CameraSet
 }
 
 }  // namespace
-
-std::optional<std::string> watchdog_complaint(const SafetyLimits& limits,
-                                              const bridge::StageIdentity& stage) {
-  if (stage.watchdog_timeout.count() != 0 || !limits.require_watchdog) return std::nullopt;
-  return "the controller does not watch the daemon's heartbeat (watchdog_timeout is 0): set it, "
-         "or set safety.require_watchdog to false";
-}
 
 Complaints stage_complaints(const JobSettings& settings, const bridge::StageIdentity& stage) {
   Complaints complaints;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/job_settings.hpp"
 #include "acquisition/records/journal_rows.hpp"
+#include "acquisition/settings/job_settings.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
@@ -16,11 +16,6 @@ namespace biotomy::acquisition {
 /// Why a job cannot begin, each in one sentence that says what to do; none when all is well.
 /// The preflight of a job stops at the first, `biotomyd --check` shows all.
 using Complaints = std::vector<std::string>;
-
-/// Why nothing may move by this stage: nobody would stop it if the daemon hung. Nothing when it
-/// may.
-std::optional<std::string> watchdog_complaint(const SafetyLimits& limits,
-                                              const bridge::StageIdentity& stage);
 
 /// Why this stage cannot do this job.
 Complaints stage_complaints(const JobSettings& settings, const bridge::StageIdentity& stage);

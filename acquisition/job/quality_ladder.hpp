@@ -3,13 +3,9 @@
 #include <optional>
 
 #include "acquisition/job/job_states.hpp"
+#include "acquisition/settings/ladder_settings.hpp"
 
 namespace biotomy::acquisition {
-
-struct LadderSettings {
-  int max_attempts = 4;  ///< frames of one layer, before a person is asked
-  enum class Exhausted { pause, accept } exhausted = Exhausted::pause;
-};
 
 /// What to do after the `attempts`-th frame of a layer, from 1, was rejected: take it again, focus
 /// again, clear the face again. Nothing when no attempt is left, or when the last two frames,

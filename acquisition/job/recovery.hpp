@@ -5,9 +5,9 @@
 #include <string>
 #include <variant>
 
-#include "acquisition/job/job_plan.hpp"
-#include "acquisition/job/safety_limits.hpp"
 #include "acquisition/records/journal_rows.hpp"
+#include "acquisition/settings/job_plan.hpp"
+#include "acquisition/settings/safety_limits.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::acquisition {

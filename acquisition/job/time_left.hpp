@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 
 namespace biotomy::acquisition {
 

@@ -1,7 +1,7 @@
 #include "acquisition/job/unattended_restart.hpp"
 
-#include "acquisition/job/stage_checks.hpp"
-#include "acquisition/job/supervision.hpp"
+#include "acquisition/rig/stage_checks.hpp"
+#include "acquisition/rig/supervision.hpp"
 
 namespace biotomy::acquisition {
 namespace {

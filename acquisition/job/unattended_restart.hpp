@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/job/alarm_kind.hpp"
-#include "acquisition/job/safety_limits.hpp"
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/alarm_kind.hpp"
+#include "acquisition/rig/step_failure.hpp"
+#include "acquisition/settings/safety_limits.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::acquisition {

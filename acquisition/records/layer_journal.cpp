@@ -12,8 +12,8 @@
 #include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_schema.hpp"
 #include "acquisition/records/journal_summary.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/job/worker.hpp"
 #include "acquisition/records/sample_records.hpp"
+#include "acquisition/worker.hpp"
 
 namespace biotomy::acquisition {
 

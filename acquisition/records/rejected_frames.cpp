@@ -8,8 +8,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/picture/jpeg_writer.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/job_plan.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/journal_rows.hpp"
+#include "acquisition/settings/job_plan.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/sample_fit.hpp"
 #include "acquisition/records/utc_time.hpp"
+#include "reconstruct/disk/temporary_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/temporary_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/job_plan.hpp"
-#include "acquisition/job/surroundings.hpp"
 #include "acquisition/records/journal_rows.hpp"
 #include "acquisition/records/layer_journal.hpp"
 #include "acquisition/records/rejected_frames.hpp"
+#include "acquisition/records/surroundings.hpp"
+#include "acquisition/settings/job_plan.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/camera/frame.hpp"
 #include "reconstruct/sample/layer_image.hpp"

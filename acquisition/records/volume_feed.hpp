@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "acquisition/job/worker.hpp"
+#include "acquisition/worker.hpp"
 
 namespace biotomy::acquisition {
 

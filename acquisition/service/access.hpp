@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "acquisition/http/rate_limit.hpp"
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "acquisition/service/credentials.hpp"
 #include "acquisition/service/refusal_log.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/job_settings.hpp"
 #include "acquisition/service/notify_section.hpp"
 #include "acquisition/service/service_section.hpp"
+#include "acquisition/settings/job_settings.hpp"
 #include "firmware_bridge/camera/libcamera_camera.hpp"
 #include "firmware_bridge/lines/gpiod_lines.hpp"
 #include "firmware_bridge/wire/configuration_key.hpp"

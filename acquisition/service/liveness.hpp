@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 
 namespace biotomy::acquisition {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 
 namespace biotomy::acquisition {
 

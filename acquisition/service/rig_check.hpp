@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "acquisition/job/step_failure.hpp"
-#include "acquisition/job/surroundings.hpp"
+#include "acquisition/records/surroundings.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "acquisition/service/configuration.hpp"
 #include "acquisition/service/rig_findings.hpp"
 #include "firmware_bridge/camera/camera.hpp"

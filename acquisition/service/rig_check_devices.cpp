@@ -8,9 +8,9 @@
 #include <opencv2/core.hpp>
 
 #include "acquisition/calibration/corrected_camera.hpp"
-#include "acquisition/job/capture.hpp"
-#include "acquisition/job/supervision.hpp"
 #include "acquisition/number_text.hpp"
+#include "acquisition/rig/capture.hpp"
+#include "acquisition/rig/supervision.hpp"
 #include "acquisition/service/gpio_complaints.hpp"
 #include "firmware_bridge/device_error.hpp"
 #include "firmware_bridge/lines/gpio_chips.hpp"

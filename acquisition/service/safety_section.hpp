@@ -1,6 +1,6 @@
 #pragma once
 
-#include "acquisition/job/safety_limits.hpp"
+#include "acquisition/settings/safety_limits.hpp"
 #include "firmware_bridge/wire/checked_table.hpp"
 
 namespace biotomy::acquisition {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "acquisition/job/job_status.hpp"
-#include "acquisition/job/safety_limits.hpp"
+#include "acquisition/settings/safety_limits.hpp"
 
 namespace biotomy::acquisition {
 

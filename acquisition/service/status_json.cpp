@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/focus/face_lean_json.hpp"
-#include "acquisition/job/alarm_kind.hpp"
 #include "acquisition/quality/metrics_json.hpp"
+#include "acquisition/rig/alarm_kind.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "acquisition/job/job_status.hpp"
-#include "acquisition/job/safety_limits.hpp"
 #include "acquisition/records/journal_rows.hpp"
+#include "acquisition/settings/safety_limits.hpp"
 
 namespace biotomy::acquisition {
 

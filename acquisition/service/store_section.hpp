@@ -1,6 +1,6 @@
 #pragma once
 
-#include "acquisition/job/job_settings.hpp"
+#include "acquisition/settings/job_settings.hpp"
 #include "firmware_bridge/wire/checked_table.hpp"
 
 namespace biotomy::acquisition {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "acquisition/job/step_failure.hpp"
-#include "acquisition/job/worker.hpp"
+#include "acquisition/rig/step_failure.hpp"
+#include "acquisition/worker.hpp"
 
 namespace biotomy::acquisition {
 

@@ -16,7 +16,7 @@
 #include "reconstruct/export/unfinished_export.hpp"
 #include "reconstruct/export/volume_block.hpp"
 #include "reconstruct/export/voxel_region.hpp"
-#include "reconstruct/sample/tiff_file.hpp"
+#include "reconstruct/picture/tiff_file.hpp"
 #include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {

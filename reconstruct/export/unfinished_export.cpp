@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "reconstruct/absolute_folder.hpp"
+#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/folder_lock.hpp"
+#include "reconstruct/disk/folder_swap.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
-#include "reconstruct/store/folder_lock.hpp"
-#include "reconstruct/store/folder_swap.hpp"
 
 namespace biotomy::reconstruct {
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/disk/file_descriptor.hpp"
 
 namespace biotomy::reconstruct {
 

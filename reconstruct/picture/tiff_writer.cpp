@@ -7,7 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "reconstruct/picture/strip_deflate.hpp"
-#include "reconstruct/sample/tiff_file.hpp"
+#include "reconstruct/picture/tiff_file.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

@@ -11,9 +11,9 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/tiff_file.hpp"
-#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/picture/tiff_file.hpp"
 #include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {

@@ -5,8 +5,8 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/image_size.hpp"
+#include "reconstruct/picture/tiff_file.hpp"
 #include "reconstruct/sample/layer_image.hpp"
-#include "reconstruct/sample/tiff_file.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_image.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

@@ -11,10 +11,10 @@
 
 #include <toml++/toml.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/excerpt.hpp"
 #include "reconstruct/geometry/spacing.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -209,7 +209,8 @@ SampleFolder SampleFolder::create(const fs::path& path, const SampleDescription&
 SampleFolder SampleFolder::open(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) {
-    fail(path, "there is no such sample folder");
+    fail(path, error ? "cannot be reached: " + error.message()
+                     : "there is no such sample folder: biotomyd makes one, or biotomy import");
   }
   if (!fs::exists(path / kDescriptionName, error)) {
     fail(path, std::string("is not a sample: there is no ") + kDescriptionName + " in it");

@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/disk/file_descriptor.hpp"
 
 namespace biotomy::reconstruct {
 

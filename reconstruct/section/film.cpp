@@ -14,8 +14,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/section/child_program.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
 
 namespace biotomy::reconstruct {
 

@@ -4,10 +4,10 @@
 #include <cctype>
 #include <string>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/png_writer.hpp"
 #include "reconstruct/picture/tiff_writer.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::reconstruct {
 

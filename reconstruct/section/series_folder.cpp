@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "reconstruct/absolute_folder.hpp"
+#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/folder_lock.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
 #include "reconstruct/section/section_record.hpp"
-#include "reconstruct/store/durable_file.hpp"
-#include "reconstruct/store/folder_lock.hpp"
 
 namespace biotomy::reconstruct {
 namespace {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/mat.hpp>
 
-#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/disk/file_descriptor.hpp"
 
 namespace biotomy::reconstruct {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/store/lru_map.hpp"
 #include "reconstruct/store/object_reader.hpp"
 

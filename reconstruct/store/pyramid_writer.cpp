@@ -7,16 +7,16 @@
 #include <span>
 #include <utility>
 
+#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/write_behind.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/codecs.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/level_mean.hpp"
 #include "reconstruct/store/missing_part.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/shard_layers.hpp"
 #include "reconstruct/store/stored_shard.hpp"
-#include "reconstruct/store/write_behind.hpp"
 #include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {

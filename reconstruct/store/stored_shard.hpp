@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/store/codecs.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
 #include "reconstruct/store/shard.hpp"
 #include "reconstruct/store/zarr_array.hpp"
 

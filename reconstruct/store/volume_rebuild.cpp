@@ -6,8 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "reconstruct/disk/folder_swap.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/folder_swap.hpp"
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/metadata_text.hpp"
 #include "reconstruct/store/ome_metadata.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/metadata_text.hpp"
 #include "reconstruct/store/ome_metadata.hpp"

@@ -9,7 +9,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "acquisition/job/worker.hpp"
+#include "acquisition/worker.hpp"
 #include "firmware_bridge/camera/camera.hpp"
 #include "firmware_bridge/lines/lines.hpp"
 #include "firmware_bridge/stage/stage.hpp"

@@ -18,7 +18,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "reconstruct/sample/image_sequence.hpp"
+#include "reconstruct/import/image_sequence.hpp"
 #include "reconstruct/store/codecs.hpp"
 
 namespace {

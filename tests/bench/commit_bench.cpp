@@ -18,10 +18,10 @@
 #include <opencv2/core.hpp>
 
 #include "acquisition/job/assessed_frame.hpp"
-#include "acquisition/job/surroundings.hpp"
 #include "acquisition/records/sample_records.hpp"
+#include "acquisition/records/surroundings.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/sample/layer_image.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "tests/bench/made_up_tissue.hpp"
 
 namespace {

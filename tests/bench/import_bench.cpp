@@ -23,8 +23,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "reconstruct/sample/image_import.hpp"
-#include "reconstruct/sample/image_sequence.hpp"
+#include "reconstruct/import/image_import.hpp"
+#include "reconstruct/import/image_sequence.hpp"
 #include "reconstruct/store/codecs.hpp"
 #include "reconstruct/whole_loop.hpp"
 #include "tools/freed_memory.hpp"

@@ -21,9 +21,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "reconstruct/picture/image_file.hpp"
 #include "reconstruct/picture/jpeg_reader.hpp"
 #include "reconstruct/picture/png_reader.hpp"
-#include "reconstruct/sample/image_file.hpp"
 #include "reconstruct/section/section_image.hpp"
 
 namespace {

@@ -22,10 +22,10 @@
 #include <CLI/CLI.hpp>
 #include <oneapi/tbb/parallel_for_each.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/codecs.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/shard.hpp"

@@ -32,10 +32,10 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/codecs.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/pyramid.hpp"
 #include "reconstruct/store/zarr_array.hpp"

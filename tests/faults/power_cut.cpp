@@ -11,11 +11,11 @@
 
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/recovery.hpp"
-#include "acquisition/job/surroundings.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/sample_records.hpp"
+#include "acquisition/records/surroundings.hpp"
 #include "acquisition/service/configuration.hpp"
-#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/store/volume_verification.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 

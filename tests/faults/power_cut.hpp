@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/job_settings.hpp"
+#include "acquisition/settings/job_settings.hpp"
 #include "tests/faults/recorded_disk.hpp"
 #include "tests/integration/simulated_rig.hpp"
 

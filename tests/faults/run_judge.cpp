@@ -8,9 +8,9 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "tests/faults/run_journal.hpp"
 #include "tests/faults/run_witness.hpp"
 #include "tests/faults/same_face.hpp"

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "acquisition/focus/depth_of_field.hpp"
-#include "acquisition/job/column_actuator.hpp"
 #include "acquisition/job/focus_step.hpp"
-#include "acquisition/job/lens_actuator.hpp"
 #include "acquisition/quality/judgement.hpp"
 #include "acquisition/quality/sharpness_judgement.hpp"
 #include "acquisition/records/sample_records.hpp"
+#include "acquisition/rig/column_actuator.hpp"
+#include "acquisition/rig/lens_actuator.hpp"
 #include "tests/focus/twin_optics.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "acquisition/job/lens_actuator.hpp"
+#include "acquisition/rig/lens_actuator.hpp"
 #include "sim/phantom/gradient_noise.hpp"
 
 namespace biotomy::tests {

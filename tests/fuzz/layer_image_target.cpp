@@ -5,8 +5,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/sample/layer_image.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/refusal.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
 #include "tests/integration/child_process.hpp"
 #include "tests/integration/noisy_sample.hpp"
 #include "tests/temporary_folder.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/volume.hpp"

@@ -11,7 +11,7 @@
 #include <sys/time.h>
 
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
 #include "tests/full_disk.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "acquisition/records/layer_journal.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "acquisition/job/job_status.hpp"
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "acquisition/service/metrics/duration_histogram.hpp"
 #include "acquisition/service/metrics/metric_family.hpp"
 

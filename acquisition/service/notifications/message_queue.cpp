@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/log.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "acquisition/service/notifications/notice.hpp"
 
 namespace biotomy::acquisition {

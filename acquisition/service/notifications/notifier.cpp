@@ -11,7 +11,7 @@
 
 #include "acquisition/log.hpp"
 #include "acquisition/service/notifications/notice_fold.hpp"
-#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "acquisition/job/job_status.hpp"
-#include "acquisition/job/step_failure.hpp"
+#include "acquisition/rig/step_failure.hpp"
 #include "acquisition/service/notifications/notice.hpp"
 
 namespace biotomy::acquisition {

@@ -9,9 +9,9 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/section/section_record.hpp"
-#include "reconstruct/store/durable_file.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "acquisition/viewer/exports/export_record.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
+#include "reconstruct/disk/file_descriptor.hpp"
 
 namespace biotomy::acquisition {
 

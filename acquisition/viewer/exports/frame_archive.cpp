@@ -6,8 +6,8 @@
 #include <minizip/zip.h>
 #include <unistd.h>
 
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/file_descriptor.hpp"
 
 namespace biotomy::acquisition {
 namespace {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/job/lens_actuator.hpp"
+#include "acquisition/rig/lens_actuator.hpp"
 #include "acquisition/service/status_json.hpp"
 #include "tests/acquisition/job_bench.hpp"
 

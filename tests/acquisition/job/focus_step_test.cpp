@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/job/job.hpp"
-#include "acquisition/job/lens_actuator.hpp"
+#include "acquisition/rig/lens_actuator.hpp"
 #include "acquisition/service/status_json.hpp"
 #include "tests/acquisition/job_bench.hpp"
 

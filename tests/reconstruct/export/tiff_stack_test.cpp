@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/image_file.hpp"
-#include "reconstruct/sample/tiff_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
+#include "reconstruct/picture/tiff_file.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/image_integrity.hpp"
 #include "reconstruct/picture/jpeg_reader.hpp"
-#include "reconstruct/sample/image_integrity.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 

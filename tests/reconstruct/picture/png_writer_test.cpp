@@ -8,8 +8,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <opencv2/core.hpp>
 
+#include "reconstruct/picture/image_integrity.hpp"
 #include "reconstruct/picture/png_reader.hpp"
-#include "reconstruct/sample/image_integrity.hpp"
 #include "tests/reconstruct/test_images.hpp"
 
 namespace biotomy::reconstruct {

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <tiffio.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/tiff_file.hpp"
-#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/picture/tiff_file.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"

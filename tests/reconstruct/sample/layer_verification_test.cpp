@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "reconstruct/store/durable_file.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "tests/reconstruct/findings.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/temporary_folder.hpp"
 

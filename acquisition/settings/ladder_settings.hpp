@@ -1,0 +1,11 @@
+#pragma once
+
+namespace biotomy::acquisition {
+
+/// What a rejected photograph leads to.
+struct LadderSettings {
+  int max_attempts = 4;  ///< frames of one layer, before a person is asked
+  enum class Exhausted { pause, accept } exhausted = Exhausted::pause;
+};
+
+}  // namespace biotomy::acquisition

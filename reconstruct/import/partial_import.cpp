@@ -1,0 +1,189 @@
+#include "reconstruct/import/partial_import.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "reconstruct/absolute_folder.hpp"
+#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/folder_lock.hpp"
+#include "reconstruct/disk/folder_swap.hpp"
+#include "reconstruct/errors.hpp"
+#include "reconstruct/import/import_request.hpp"
+#include "reconstruct/sample/layer_hashes.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+using nlohmann::json;
+
+constexpr const char* kRequestName = "request.json";
+constexpr const char* kSampleName = "sample";
+
+bool is_mount_point(const fs::path& folder) {
+  struct stat here {};
+  struct stat above {};
+  return ::stat(folder.c_str(), &here) == 0 && ::stat(folder.parent_path().c_str(), &above) == 0 &&
+         here.st_dev != above.st_dev;
+}
+
+std::string file_of(const SampleFolder& sample, std::int64_t layer) {
+  return sample.layer_path(layer).lexically_relative(sample.path()).string();
+}
+
+}  // namespace
+
+PartialImport::PartialImport(const fs::path& output, const SampleDescription& description,
+                             const json& asked, bool restart)
+    : output_(absolute_folder(output)),
+      folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
+  refuse_if_taken();
+  lock_ = make_locked_folder(
+      folder_, output_.string() + ": another import of it is at work; wait for its end");
+  if (restart || !take_up(asked)) {
+    try {
+      begin(description, asked);
+    } catch (...) {
+      discard();
+      throw;
+    }
+  }
+  hashes_file_ = FileDescriptor(
+      ::open(hashes_path().c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644));
+  if (!hashes_file_.is_open()) {
+    throw SampleError(hashes_path().string() + ": cannot open it: " + std::strerror(errno));
+  }
+}
+
+void PartialImport::refuse_if_taken() const {
+  std::error_code error;
+  // The finished sample takes the place of an empty folder by a rename, which these do not let
+  // happen.
+  if (fs::is_symlink(output_, error)) {
+    throw SampleError(output_.string() + ": is a symbolic link: name the folder that it leads to");
+  }
+  if (fs::exists(output_, error) && is_mount_point(output_)) {
+    throw SampleError(output_.string() + ": is a mount point: name a folder in it, or beside it");
+  }
+  if (fs::exists(output_, error) &&
+      !(fs::is_directory(output_, error) && fs::is_empty(output_, error))) {
+    if (fs::exists(folder_ / kRequestName, error) && !fs::exists(folder_ / kSampleName, error)) {
+      fs::remove_all(folder_, error);  // of the import that made the output and was then killed
+    }
+    throw SampleError(output_.string() +
+                      ": is there already and not empty; choose another name or remove it");
+  }
+}
+
+bool PartialImport::take_up(const json& asked) {
+  std::ifstream in(folder_ / kRequestName, std::ios::binary);
+  std::error_code error;
+  if (!in || !fs::exists(folder_ / kSampleName, error)) {
+    return false;  // nothing was begun, or all was finished but the removal of this folder
+  }
+  json begun;
+  try {
+    begun = json::parse(in);
+  } catch (const json::exception&) {
+    throw SampleError((folder_ / kRequestName).string() +
+                      ": is damaged; give --restart to begin anew");
+  }
+  sample_ = SampleFolder::open(folder_ / kSampleName);
+  remove_unfinished_writes(sample_->path());
+  if (fs::exists(hashes_path(), error)) {
+    std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
+    std::erase_if(hashes, [&](const LayerHash& each) {
+      return !fs::exists(sample_->path() / each.file, error);  // its name did not reach the disk
+    });
+    for (const LayerHash& each : hashes) {
+      stored_[each.file] = each.sha256;
+    }
+    write_durably(hashes_path(), layer_hash_lines(hashes));  // without a line that was cut off
+  }
+  const auto stored = [this](std::int64_t layer) { return is_stored(layer); };
+  if (const auto difference = import_difference(begun, asked, stored)) {
+    throw SampleError(output_.string() + ": another import of it was begun, in which " +
+                      *difference +
+                      " was another; repeat that to go on, or give --restart to begin anew");
+  }
+  if (begun != asked) {
+    write_durably(folder_ / kRequestName, asked.dump(1) + "\n");
+  }
+  return true;
+}
+
+void PartialImport::begin(const SampleDescription& description, const json& asked) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    remove_folder(entry.path());
+  }
+  sample_ = SampleFolder::create(folder_ / kSampleName, description);
+  write_durably(folder_ / kRequestName, asked.dump(1) + "\n");  // last: now it can be taken up
+}
+
+bool PartialImport::is_stored(std::int64_t layer) const {
+  const std::scoped_lock lock(mutex_);
+  return stored_.contains(file_of(*sample_, layer));
+}
+
+std::int64_t PartialImport::stored_layers() const {
+  const std::scoped_lock lock(mutex_);
+  return static_cast<std::int64_t>(stored_.size());
+}
+
+void PartialImport::add_stored(std::int64_t layer, const std::string& sha256) {
+  const LayerHash hash{file_of(*sample_, layer), sha256};
+  const std::string line = layer_hash_lines({hash});
+  const std::scoped_lock lock(mutex_);
+  if (::write(hashes_file_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
+    throw SampleError(hashes_path().string() + ": cannot write it: " + std::strerror(errno));
+  }
+  stored_[hash.file] = hash.sha256;
+}
+
+void PartialImport::sync() {
+  sync_folder(sample_->layer_path(1).parent_path());
+  if (::fdatasync(hashes_file_.get()) != 0) {
+    throw SampleError(hashes_path().string() + ": cannot write it: " + std::strerror(errno));
+  }
+}
+
+fs::path PartialImport::finish() {
+  sync();
+  std::vector<LayerHash> hashes;
+  for (const auto& [file, sha256] : stored_) {
+    hashes.push_back({file, sha256});
+  }
+  write_durably(sample_->hashes_path(), layer_hash_lines(hashes));
+  std::error_code error;
+  fs::rename(sample_->path(), output_, error);  // takes the place of an empty folder, of no other
+  if (error) {
+    refuse_if_taken();
+    throw SampleError(output_.string() +
+                      ": cannot give the finished sample its name: " + error.message());
+  }
+  try {
+    sync_folder(output_.parent_path());
+  } catch (const SampleError&) {
+    fs::rename(output_, sample_->path(), error);  // to where the same command goes on from
+    throw;
+  }
+  discard();
+  return output_;
+}
+
+void PartialImport::discard() noexcept {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace biotomy::reconstruct

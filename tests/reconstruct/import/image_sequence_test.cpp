@@ -1,0 +1,128 @@
+#include "reconstruct/import/image_sequence.hpp"
+
+#include <gmock/gmock.h>
+
+#include "reconstruct/errors.hpp"
+#include "tests/reconstruct/test_files.hpp"
+#include "tests/reconstruct/test_images.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+using tests::TemporaryFolder;
+
+class Sequence : public testing::Test {
+ protected:
+  void save(const std::string& name, int width = 8, int type = CV_8UC3) {
+    save_rgb(folder_.path() / name, test_image(width, 6, type));
+  }
+  ImageSequence find() const { return ImageSequence::find({folder_.path()}); }
+  std::string error() const {
+    return message_of<SampleError>([&] { find(); });
+  }
+  static std::vector<std::string> names(const ImageSequence& sequence) {
+    std::vector<std::string> names;
+    for (const auto& file : sequence.files()) {
+      names.push_back(file.filename().string());
+    }
+    return names;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Sequence, IsInTheOrderOfTheNumbersNotOfTheNames) {
+  for (int i = 1; i <= 10; ++i) {
+    save("face" + std::to_string(i) + ".png");
+  }
+  const ImageSequence sequence = find();
+  EXPECT_EQ(sequence.count(), 10);
+  EXPECT_EQ(names(sequence).at(1), "face2.png");
+  EXPECT_EQ(names(sequence).at(9), "face10.png");
+}
+
+TEST_F(Sequence, TakesTheLastNumberOfTheName) {
+  save("knee42_07_raw.png");
+  save("knee42_08_raw.png");
+  EXPECT_THAT(names(find()), testing::ElementsAre("knee42_07_raw.png", "knee42_08_raw.png"));
+}
+
+TEST_F(Sequence, TakesFilesInAnyOrder) {
+  save("2.png");
+  save("1.png");
+  const auto sequence = ImageSequence::find({folder_.path() / "2.png", folder_.path() / "1.png"});
+  EXPECT_THAT(names(sequence), testing::ElementsAre("1.png", "2.png"));
+}
+
+TEST_F(Sequence, DoesNotLookAtOtherThingsInTheFolder) {
+  save("5.png");
+  save("overview.png");
+  write_text(folder_.path() / "6.txt", "notes");
+  write_text(folder_.path() / ".7.png", "hidden");
+  std::filesystem::create_directory(folder_.path() / "8.png");
+  EXPECT_THAT(names(find()), testing::ElementsAre("5.png"));
+}
+
+TEST_F(Sequence, NamesALinkThatLeadsNowhere) {
+  save("5.png");
+  std::filesystem::create_symlink("nowhere.png", folder_.path() / "6.png");
+  EXPECT_THAT(error(), testing::HasSubstr("6.png: is no file"));
+}
+
+TEST_F(Sequence, NamesAMissingNumber) {
+  save("a08.png");
+  save("a10.png");
+  EXPECT_THAT(error(),
+              AllOf(StartsWith(folder_.path().string()), HasSubstr("number 9 is missing")));
+}
+
+TEST_F(Sequence, NamesANumberThatIsThereTwice) {
+  save("a1.png");
+  save("a01.png");
+  EXPECT_THAT(error(), AllOf(HasSubstr("same number"), HasSubstr("a1.png"), HasSubstr("a01.png")));
+}
+
+TEST_F(Sequence, RefusesTwoStacksInOneFolder) {
+  save("a1.png");
+  save("b2.png");
+  EXPECT_THAT(error(), AllOf(HasSubstr("b2.png"), HasSubstr("a1.png")));
+}
+
+TEST_F(Sequence, RefusesAFolderWithoutImages) {
+  EXPECT_THAT(error(), HasSubstr("no images"));
+}
+
+TEST_F(Sequence, RefusesAFileWithoutANumberWhenItIsGivenByName) {
+  save("a.png");
+  EXPECT_THAT(message_of<SampleError>([&] { ImageSequence::find({folder_.path() / "a.png"}); }),
+              HasSubstr("no number"));
+}
+
+TEST_F(Sequence, RefusesANameThatIsNotThere) {
+  EXPECT_THAT(message_of<SampleError>([] { ImageSequence::find({"/nowhere/1.png"}); }),
+              StartsWith("/nowhere/1.png: there is no such file"));
+}
+
+TEST_F(Sequence, RefusesAnImageOfAnotherSizeOnOneLineThatTellsBoth) {
+  save("1.png");
+  save("2.png", 9);
+  const ImageSequence sequence = find();
+  EXPECT_NO_THROW(sequence.read(1));
+  EXPECT_EQ(message_of<SampleError>([&] { sequence.read(2); }),
+            (folder_.path() / "2.png").string() +
+                ": is 9 × 6 pixels of 8 bits, expected 8 × 6 pixels of 8 bits like 1.png");
+}
+
+TEST_F(Sequence, RefusesAnImageOfOtherBits) {
+  save("1.png");
+  save("2.png", 8, CV_16UC3);
+  const ImageSequence sequence = find();
+  EXPECT_THAT(message_of<SampleError>([&] { sequence.read(2); }), HasSubstr("16 bits"));
+}
+
+}  // namespace
+}  // namespace biotomy::reconstruct
