@@ -56,16 +56,16 @@ void add_calibrate_command(CLI::App& app) {
       "calibrate", "Records a calibration of a rig at rest, through its daemon.");
   calibrate_command->require_subcommand(1);
   for (const auto& [kind, description] :
-       {std::pair{"flat", "with the lamp on, of an even, pale surface: how the light is spread"},
-        std::pair{"dark", "with the lamp off: what the sensor shows without light"},
-        std::pair{"white", "with the lamp on, of a grey card: the gains that make it neutral"},
+       {std::pair{"flat", "With the lamp on, of an even, pale surface: how the light is spread"},
+        std::pair{"dark", "With the lamp off: what the sensor shows without light"},
+        std::pair{"white", "With the lamp on, of a grey card: the gains that make it neutral"},
         std::pair{
             "focus",
-            "of the block's face: homes the axes if need be, moves the column or the lens and "
+            "Of the block's face: homes the axes if need be, moves the column or the lens and "
             "finds where the face is sharp, for focus.start_um"}}) {
     CLI::App* command = calibrate_command->add_subcommand(kind, description);
     add_daemon_options(*command, options->daemon);
-    command->add_option("--reason", options->reason, "a few words for the journal");
+    command->add_option("--reason", options->reason, "A few words for the journal");
     command->callback([options, kind = std::string(kind)] { calibrate(*options, kind); });
   }
 }

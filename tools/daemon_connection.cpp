@@ -46,9 +46,9 @@ std::string token_of(const DaemonOptions& options) {
 }  // namespace
 
 void add_daemon_options(CLI::App& command, DaemonOptions& options) {
-  command.add_option("--url", options.url, "where biotomyd listens")->capture_default_str();
+  command.add_option("--url", options.url, "Where biotomyd listens")->capture_default_str();
   command.add_option("--token-file", options.token_file,
-                     std::string("a file with the token; else ") + kTokenVariable + " holds it");
+                     std::string("A file with the token; else ") + kTokenVariable + " holds it");
 }
 
 DaemonConnection::DaemonConnection(const DaemonOptions& options)

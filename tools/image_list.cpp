@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/image_file.hpp"
+#include "reconstruct/picture/image_file.hpp"
 
 namespace biotomy::tools {
 namespace {
@@ -79,7 +79,7 @@ std::vector<fs::path> list_images(const std::vector<std::string>& inputs) {
     } else if (fs::exists(input, error)) {
       images.emplace_back(input);
     } else {
-      throw SampleError(input + ": there is no such file or folder");
+      throw SampleError(input + ": there is no such file or folder: check its name");
     }
   }
   return images;

@@ -7,8 +7,8 @@
 
 #include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/errors.hpp"
-#include "reconstruct/sample/image_import.hpp"
-#include "reconstruct/sample/image_sequence.hpp"
+#include "reconstruct/import/image_import.hpp"
+#include "reconstruct/import/image_sequence.hpp"
 #include "reconstruct/store/codecs.hpp"
 #include "reconstruct/utf8.hpp"
 #include "tools/command.hpp"
@@ -45,6 +45,16 @@ struct Options {
   std::string compression = "zstd";
   bool restart = false;
 };
+
+std::string codec_help() {
+  std::string text = "Of the volume's chunks:";
+  const char* separator = " ";
+  for (const std::string& name : reconstruct::codec_names()) {
+    text += separator + name;
+    separator = ", ";
+  }
+  return text;
+}
 
 reconstruct::Vector3 vector_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -142,7 +152,7 @@ void add_import_command(CLI::App& app) {
       ->delimiter(',')
       ->expected(3)
       ->capture_default_str();
-  command->add_option("--codec", options->codec, "Of the volume's chunks")->capture_default_str();
+  command->add_option("--codec", options->codec, codec_help())->capture_default_str();
   command
       ->add_option("--colours", options->colours,
                    "In the volume's chunks: interleaved, voxel by voxel, or planar")

@@ -131,10 +131,11 @@ void watch(DaemonConnection& daemon, const RigOptions& options) {
   while (true) {
     const json status = daemon.status();
     const std::string state = status.at("state");
-    const bool in_a_step = is_in_a_step(state);
+    const std::string cause = status.at("pause_cause");
+    const bool in_a_step = is_in_a_step(state) && state != "held";
     const std::string line = std::to_string(status.at("committed").get<std::int64_t>()) + "/" +
                              std::to_string(status.at("layers").get<std::int64_t>()) + " layers, " +
-                             (in_a_step ? "running" : state);
+                             (in_a_step ? "running" : state) + (cause.empty() ? "" : ": " + cause);
     if (line != shown) {
       if (terminal) std::cerr << "\r\033[K";
       std::cout << line << std::endl;
@@ -163,7 +164,7 @@ void add_control(CLI::App& rig, const std::string& name, const std::string& desc
                  const std::shared_ptr<RigOptions>& options) {
   CLI::App* command = rig.add_subcommand(name, description);
   add_daemon_options(*command, options->daemon);
-  command->add_option("--reason", options->reason, "a few words for the journal");
+  command->add_option("--reason", options->reason, "A few words for the journal");
   command->callback([options, name] {
     std::cout << DaemonConnection(options->daemon).command(name, options->reason) << '\n';
   });
@@ -173,29 +174,30 @@ void add_control(CLI::App& rig, const std::string& name, const std::string& desc
 
 void add_rig_command(CLI::App& app) {
   auto options = std::make_shared<RigOptions>();
-  CLI::App* rig = app.add_subcommand("rig", "asks and commands the daemon of a rig");
+  CLI::App* rig = app.add_subcommand("rig", "Asks and commands the daemon of a rig.");
   rig->require_subcommand(1);
 
-  CLI::App* status = rig->add_subcommand("status", "what the rig is doing");
+  CLI::App* status = rig->add_subcommand("status", "What the rig is doing");
   add_daemon_options(*status, options->daemon);
-  status->add_flag("--json", options->as_json, "as the daemon gives it");
+  status->add_flag("--json", options->as_json, "As the daemon gives it");
   status->callback([options] {
     DaemonConnection daemon(options->daemon);
     show_status(daemon, *options);
   });
 
-  add_control(*rig, "start", "begins the job, or goes on with its sample", options);
-  add_control(*rig, "pause", "finishes the step at hand and parks the rig", options);
-  add_control(*rig, "resume", "goes on after a pause", options);
-  add_control(*rig, "abort", "stops and parks the rig; the job is over", options);
-  add_control(*rig, "acknowledge", "opens the latch after an alarm whose cause is gone", options);
+  add_control(*rig, "start", "Begins the job, or goes on with its sample", options);
+  add_control(*rig, "pause", "Finishes the step at hand and parks the rig", options);
+  add_control(*rig, "resume", "Goes on after a pause", options);
+  add_control(*rig, "abort", "Stops and parks the rig at once; start goes on with the sample",
+              options);
+  add_control(*rig, "acknowledge", "Opens the latch after an alarm whose cause is gone", options);
 
   CLI::App* watch_command =
       rig->add_subcommand("watch",
-                          "follows the job to its end: exit 0 when it is done, 1 with the "
-                          "alarm when the rig is stopped");
+                          "Follows the job to its end: exit 0 when it is done, 1 when it was "
+                          "aborted, or with the alarm when the rig is stopped");
   add_daemon_options(*watch_command, options->daemon);
-  watch_command->add_option("--interval", options->interval_ms, "milliseconds between two looks")
+  watch_command->add_option("--interval", options->interval_ms, "Milliseconds between two looks")
       ->check(CLI::Range(50, 60000))
       ->capture_default_str();
   watch_command->callback([options] {

@@ -12,13 +12,13 @@
 
 #include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
+#include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/section/cache_need.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
 #include "reconstruct/section/section_record.hpp"
-#include "reconstruct/store/durable_file.hpp"
 #include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
@@ -144,7 +144,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
 }  // namespace
 
 void add_section_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("section", "Cuts a sample along a plane into a picture");
+  CLI::App* command = app.add_subcommand("section", "Cuts a sample along a plane into a picture.");
   auto arguments = std::make_shared<SectionArguments>();
   arguments->options.background = "0,0,0";
   command->add_option("SAMPLE", arguments->sample, "The sample's folder")->required();

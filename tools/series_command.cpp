@@ -173,7 +173,10 @@ void add_shared_options(CLI::App& command, SeriesArguments& arguments) {
 }  // namespace
 
 void add_series_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("series", "Cuts a sample along a series of planes");
+  CLI::App* command = app.add_subcommand(
+      "series",
+      "Cuts a sample along a series of planes. The options of each kind: biotomy series SAMPLE "
+      "rotate --help.");
   auto arguments = std::make_shared<SeriesArguments>();
   command->add_option("SAMPLE", arguments->sample, "The sample's folder")->required();
   command->require_subcommand(1);

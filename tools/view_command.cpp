@@ -109,15 +109,15 @@ void view(const ViewOptions& options) {
 
 void add_view_command(CLI::App& app) {
   auto options = std::make_shared<ViewOptions>();
-  CLI::App* command = app.add_subcommand("view", "shows a sample in a browser, without a rig");
-  command->add_option("sample", options->sample, "the sample's folder")->required();
+  CLI::App* command = app.add_subcommand("view", "Shows a sample in a browser, without a rig.");
+  command->add_option("sample", options->sample, "The sample's folder")->required();
   command
       ->add_option("--listen", options->listen,
-                   "address and port of the page; port 0 is any that is free")
+                   "Address and port of the page; port 0 is any that is free")
       ->capture_default_str();
-  command->add_flag("--no-browser", options->no_browser, "do not open a browser");
+  command->add_flag("--no-browser", options->no_browser, "Do not open a browser");
   command->add_flag("--allow-remote", options->allow_remote,
-                    "listen on an address that other computers reach");
+                    "Listen on an address that other computers reach");
   command->callback([options] { view(*options); });
 }
 

@@ -46,7 +46,8 @@ std::string state_diagram() {
       "# The states of a job\n\n"
       "Made from the table in `acquisition/job/job_states.cpp` by `biotomyd --state-diagram`. What "
       "is neither in the drawing nor in the list is forbidden. The daemon starts in `faulted`, as "
-      "a latch does.\n\n"
+      "a latch does. A pause that was asked for is taken where a step ends, with the next step "
+      "passed over: log and journal may tell of `preflight` and then of `pausing`.\n\n"
       "```mermaid\nstateDiagram-v2\n  [*] --> faulted\n";
   for (const Transition& transition : transitions()) {
     if (!is_drawn(transition.event)) continue;

@@ -10,6 +10,7 @@
 #include "acquisition/service/configuration_reference.hpp"
 #include "acquisition/service/daemon.hpp"
 #include "acquisition/service/device_list.hpp"
+#include "acquisition/service/quality_section.hpp"
 #include "acquisition/service/rig_check.hpp"
 
 namespace {
@@ -45,7 +46,13 @@ int main(int argc, char** argv) {
   bool list = false;
   bool as_json = false;
   std::string checked_file;
+  std::string qc_policy;
   auto* config = app.add_option("--config", file, "the configuration, rig.toml");
+  app.add_option("--qc-policy", qc_policy,
+                 "instead of the configuration's quality.policy, when no photograph of a layer was "
+                 "good enough: pause the rig, or accept the sharpest with a flag")
+      ->check(CLI::IsMember({"pause", "accept"}))
+      ->needs(config);
   app.add_flag("--configuration-reference", reference,
                "print every key of the configuration (Markdown) and end")
       ->excludes(config);
@@ -80,7 +87,8 @@ int main(int argc, char** argv) {
     }
     if (file.empty()) throw CLI::RequiredError("--config");
     log_to_stderr();
-    const Configuration configuration = read_configuration(file);
+    Configuration configuration = read_configuration(file);
+    if (!qc_policy.empty()) configuration.job.ladder.exhausted = exhausted_policy(qc_policy);
     return test ? test_notification(configuration) : run_daemon(configuration);
   } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);

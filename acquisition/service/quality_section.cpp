@@ -41,6 +41,10 @@ void read_light_and_surface(const CheckedTable& table, QualityThresholds& thresh
 
 }  // namespace
 
+LadderSettings::Exhausted exhausted_policy(const std::string& name) {
+  return name == "accept" ? LadderSettings::Exhausted::accept : LadderSettings::Exhausted::pause;
+}
+
 void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
                   LadderSettings& ladder) {
   ladder.max_attempts = count(table, "max_attempts", ladder.max_attempts, 1, 100,
@@ -52,8 +56,7 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
       .choices = {"pause", "accept"},
       .description = "when no attempt was good enough: pause the rig, or accept the sharpest with "
                      "a flag"});
-  ladder.exhausted =
-      policy == "accept" ? LadderSettings::Exhausted::accept : LadderSettings::Exhausted::pause;
+  ladder.exhausted = exhausted_policy(policy);
   thresholds.minimum_sharpness_ratio =
       number(table, "minimum_sharpness_ratio", thresholds.minimum_sharpness_ratio, "", 0.0, 10.0,
              "sharpness of a frame relative to this layer's focus search, or without one to the "

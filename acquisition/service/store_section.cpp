@@ -7,6 +7,7 @@
 
 #include "acquisition/service/configuration_keys.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/store/codecs.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -37,7 +38,10 @@ std::array<int, 3> voxels(const CheckedTable& table, const char* name,
 
 reconstruct::VolumeLayout read_volume_layout(const CheckedTable& table) {
   reconstruct::VolumeLayout layout;
-  layout.codec = optional_text(table, "codec", "of the volume's chunks", layout.codec);
+  layout.codec = table.get(TextKey{.name = "codec",
+                                   .fallback = layout.codec,
+                                   .choices = reconstruct::codec_names(),
+                                   .description = "of the volume's chunks"});
   layout.interleaved =
       table.get(TextKey{.name = "colours",
                         .fallback = layout.interleaved ? "interleaved" : "planar",

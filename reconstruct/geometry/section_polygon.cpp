@@ -123,7 +123,7 @@ std::vector<Vector3> section_polygon(const Plane& plane, const Cuboid& cuboid) {
   std::ostringstream message;
   if (found.vertices.empty()) {
     message << "the plane misses the sample by " << found.distance
-            << " um: choose one that goes through 0,0,0 to " << describe(cuboid.extent()) << " um";
+            << " um: it reaches from 0,0,0 to " << describe(cuboid.extent()) << " um";
   } else if (found.vertices.size() == 1) {
     message << "the plane touches the sample only at the vertex " << describe(found.vertices[0])
             << " um: move it into the sample";

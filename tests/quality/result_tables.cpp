@@ -59,8 +59,9 @@ std::string strength_row(const DefectResult& result) {
 }
 
 std::string good_frames(const SetResults& results) {
-  std::string text = "Of " + std::to_string(results.good.frames) + " good frames " +
-                     std::to_string(results.good.rejected) + " were rejected, " +
+  std::string text = std::to_string(results.good.rejected) + " of " +
+                     std::to_string(results.good.frames) + " good frames " +
+                     (results.good.rejected == 1 ? "was" : "were") + " rejected, " +
                      number("%.2f", 100.0 * results.good.share()) + " % (goal: at most " +
                      number("%g", 100.0 * SetResults::kMostFalseAlarms) + ")";
   const char* separator = ": ";

@@ -108,7 +108,7 @@ TEST(ResultTables, ShowWhatWasFoundAndListWhatWasWrong) {
                                         blurred(50, "good", 0.9)};
   const std::string text = markdown(results_of(frames));
   EXPECT_THAT(text, HasSubstr("| defocus | ≥ 15 % of the contrast at half Nyquist | 2 | 50.0 |"));
-  EXPECT_THAT(text, HasSubstr("Of 2 good frames 1 were rejected, 50.00 %"));
+  EXPECT_THAT(text, HasSubstr("1 of 2 good frames was rejected, 50.00 %"));
   EXPECT_THAT(json(results_of(frames)), HasSubstr("\"rightly_named\": 1"));
   EXPECT_THAT(wrong_answers(frames), HasSubstr("good, contrast 1.000: rejected: because"));
   EXPECT_THAT(wrong_answers(frames), HasSubstr("defocus 50, contrast 1.000: not rejected"));
