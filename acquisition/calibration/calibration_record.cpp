@@ -8,6 +8,7 @@
 
 #include "acquisition/calibration/calibration_file.hpp"
 #include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/picture_notes.hpp"
 #include "reconstruct/picture/tiff_image.hpp"

@@ -2,13 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include "reconstruct/disk/file_descriptor.hpp"
-#include "reconstruct/disk/sha256_hash.hpp"
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::reconstruct {
@@ -16,32 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kReadBlock = std::size_t{1} << 20;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
-  throw SampleError(path.string() + ": cannot " + what + ": " + std::strerror(error));
-}
-
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-std::string sha256_of_descriptor(const FileDescriptor& file, const fs::path& path) {
-  Sha256Hash hash;
-  std::vector<std::byte> block(kReadBlock);
-  for (;;) {
-    const ssize_t count = ::read(file.get(), block.data(), block.size());
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count < 0) {
-      fail(path, "read it", errno);
-    }
-    if (count == 0) {
-      return hash.finish();
-    }
-    hash.add({block.data(), static_cast<std::size_t>(count)});
-  }
 }
 
 }  // namespace
@@ -119,22 +93,8 @@ void sync_folders(const fs::path& folder) {
 void sync_folder(const fs::path& folder) {
   const FileDescriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor.is_open() || ::fsync(descriptor.get()) != 0) {
-    fail(folder, "sync this folder", errno);
+    throw SampleError(folder.string() + ": cannot sync this folder: " + std::strerror(errno));
   }
-}
-
-std::string sha256(std::span<const std::byte> bytes) {
-  Sha256Hash hash;
-  hash.add(bytes);
-  return hash.finish();
-}
-
-std::string sha256_of_file(const fs::path& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.is_open()) {
-    fail(path, "open it", errno);
-  }
-  return sha256_of_descriptor(file, path);
 }
 
 }  // namespace biotomy::reconstruct

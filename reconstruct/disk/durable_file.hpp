@@ -56,8 +56,4 @@ void sync_folder(const std::filesystem::path& folder);
 /// killed may have made folders and not got to their fsync.
 void sync_folders(const std::filesystem::path& folder);
 
-/// Lower-case hexadecimal SHA-256.
-std::string sha256(std::span<const std::byte> bytes);
-std::string sha256_of_file(const std::filesystem::path& path);
-
 }  // namespace biotomy::reconstruct

@@ -16,6 +16,7 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/disk/write_behind.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/spacing.hpp"

@@ -8,7 +8,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 

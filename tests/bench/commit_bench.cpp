@@ -21,6 +21,7 @@
 #include "acquisition/records/sample_records.hpp"
 #include "acquisition/records/surroundings.hpp"
 #include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "tests/bench/made_up_tissue.hpp"
 

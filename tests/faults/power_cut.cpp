@@ -15,7 +15,7 @@
 #include "acquisition/records/sample_records.hpp"
 #include "acquisition/records/surroundings.hpp"
 #include "acquisition/service/configuration.hpp"
-#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/store/volume_verification.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 

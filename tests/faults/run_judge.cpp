@@ -8,7 +8,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "tests/faults/run_journal.hpp"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "acquisition/records/layer_journal.hpp"
-#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
 #include "reconstruct/store/volume_writer.hpp"

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/temporary_folder.hpp"

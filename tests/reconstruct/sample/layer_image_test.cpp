@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <tiffio.h>
 
-#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/tiff_file.hpp"
 #include "tests/reconstruct/test_files.hpp"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/disk/sha256.hpp"
 #include "tests/reconstruct/findings.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
