@@ -226,7 +226,6 @@ void Job::count_committed(TimePoint now) {
   if (!cycle_ || !cycle_->last_committed()) return;
   if (cycle_->last_committed()->layer <= committed_) return;
   committed_ = cycle_->last_committed()->layer;
-  last_commit_ = now;
   time_left_.layer_done(now);
 }
 
@@ -279,10 +278,7 @@ void Job::enter(JobState state, TimePoint now) {
   // How long a layer takes says nothing when somebody let it wait.
   if (is_at_rest(state) || state == JobState::held) time_left_.interrupted();
   if (is_layer_step(state)) {
-    if (!run_began_) {
-      run_began_ = now;
-      committed_at_start_ = committed_;
-    }
+    time_left_.begin(now);
     cycle_->begin(state, *fresh_, now);
     return;
   }
@@ -392,14 +388,6 @@ std::string Job::waiting_for() const {
   }
 }
 
-std::optional<double> Job::seconds_left() const {
-  const std::int64_t made = committed_ - committed_at_start_;
-  if (!run_began_ || made <= 0 || is_at_rest(state_)) return std::nullopt;
-  const std::chrono::duration<double> taken = last_commit_ - *run_began_;
-  return taken.count() / static_cast<double>(made) *
-         static_cast<double>(settings_.plan.layers - committed_);
-}
-
 void Job::publish() {
   JobStatus status;
   status.state = state_;
@@ -410,9 +398,11 @@ void Job::publish() {
   status.sample = settings_.plan.sample.string();
   status.layers = settings_.plan.layers;
   status.committed = committed_;
-  status.seconds_left = seconds_left();
-  status.seconds_left_range =
-      time_left_.of(settings_.plan.layers - committed_, status.seconds_left);
+  if (!is_at_rest(state_)) {
+    const std::int64_t layers_left = settings_.plan.layers - committed_;
+    status.seconds_left = time_left_.estimate(layers_left);
+    status.seconds_left_range = time_left_.range(layers_left);
+  }
   status.commands = accepted_commands();
   status.controller_answers = fresh_.has_value();
   status.stage = last_status_;

@@ -125,7 +125,6 @@ class Job {
   void note(const char* kind, const std::string& text);
   void write_early_notes();
   std::string waiting_for() const;
-  std::optional<double> seconds_left() const;
 
   JobSettings settings_;
   JobParts parts_;
@@ -179,9 +178,6 @@ class Job {
   CalibrationStatus calibration_status_;
 
   std::int64_t committed_ = 0;
-  std::int64_t committed_at_start_ = 0;
-  std::optional<TimePoint> run_began_;
-  TimePoint last_commit_{};
   TimeLeft time_left_;
   std::int64_t volume_seen_ = 0;
   TimePoint volume_moved_{};

@@ -16,7 +16,7 @@ void Job::begin_preflight() {
   supervision_.forget_positions();
   lamp_and_tower(false);
   continuation_.reset();
-  run_began_.reset();
+  time_left_.end();
   cycle_.reset();
   identity_.reset();
   // The records of an earlier run are closed, after all they still write, before they are opened
