@@ -143,7 +143,12 @@ std::optional<std::string> Job::why_not(OperatorCommand command) const {
 
 std::optional<std::string> Job::why_not_begin(JobEvent event) const {
   if (calibration_) return "a calibration is under way: wait for its end, or abort it";
-  if (next_state(state_, event)) return std::nullopt;
+  if (next_state(state_, event)) {
+    // What only an acknowledgement cures becomes an alarm, which can be acknowledged.
+    const auto cause = supervision_.standing_cause();
+    return cause ? std::optional("not while something is wrong with the rig: " + cause->sentence)
+                 : std::nullopt;
+  }
   if (state_ != JobState::faulted) {
     return std::string("the job is ") + to_string(state_) + ": " + to_string(event) +
            " does nothing now";

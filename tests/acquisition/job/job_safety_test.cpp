@@ -326,6 +326,22 @@ TEST(JobSafety, TurnsAStartAwayWhenTheControllerStaysSilent) {
   EXPECT_THAT(reply.sentence, HasSubstr("does not answer"));
 }
 
+TEST(JobSafety, SaysWhyAnAlarmCannotBeAcknowledgedYet) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.lines.inputs.door_open = true;
+  bench.tick(300);
+  ASSERT_EQ(bench.state(), JobState::faulted);
+  const auto shut = bench.board.look();
+  EXPECT_THAT(shut->waiting_for, HasSubstr("acknowledge: the cause is still there: the door"));
+  EXPECT_THAT(shut->commands, testing::IsEmpty());
+  bench.lines.inputs.door_open = false;
+  bench.tick();
+  EXPECT_EQ(bench.board.look()->waiting_for, "waits for an operator to acknowledge");
+  EXPECT_THAT(bench.board.look()->commands, testing::ElementsAre(OperatorCommand::acknowledge));
+}
+
 TEST(JobSafety, DoesNotTakeStartForTheAcknowledgementOfARealAlarm) {
   JobBench bench;
   bench.stage.status.state = bridge::ControllerState::faulted;

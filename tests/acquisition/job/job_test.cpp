@@ -51,6 +51,23 @@ TEST(Job, ShowsTheCommandsThatItWouldObey) {
               ElementsAre(start, calibrate_flat, calibrate_dark, calibrate_white, calibrate_focus));
 }
 
+TEST(Job, SaysWhatStandsInTheWayInsteadOfBeginning) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.say(OperatorCommand::pause).accepted);
+  ASSERT_TRUE(bench.reach(JobState::paused));
+  bench.lines.inputs.door_open = true;
+  bench.tick();
+  EXPECT_THAT(bench.board.look()->commands, ElementsAre(OperatorCommand::abort));
+  const OperatorReply reply = bench.say(OperatorCommand::resume);
+  EXPECT_FALSE(reply.accepted);
+  EXPECT_THAT(reply.sentence, HasSubstr("the door is open"));
+  EXPECT_EQ(bench.state(), JobState::paused);
+  bench.lines.inputs.door_open = false;
+  EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
 TEST(Job, FindsTheFocusOnceAndFollowsTheFaceAfterwards) {
   JobBench bench;
   bench.start_job();
