@@ -6,8 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "firmware_bridge/device_error.hpp"
-
 namespace biotomy::tests {
 
 using bridge::CommandResult;
@@ -18,6 +16,7 @@ using bridge::StageAction;
 namespace {
 
 constexpr double kTraverseAfterPassUm = 80000.0;
+constexpr std::uint16_t kWatchdogFault = 3;
 
 }  // namespace
 
@@ -39,12 +38,13 @@ bridge::StageIdentity FakeStage::identify() {
 bridge::StageStatus FakeStage::look() {
   if (silent || blind) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (!heart_stopped) ++status.controller_heartbeat;
-  if (under_way_ && --exchanges_left_ <= 0) finish();
+  if (under_way_ && !stuck && --exchanges_left_ <= 0) finish();
   aim();
   return status;
 }
 
-bridge::StageStatus FakeStage::exchange(std::uint16_t) {
+bridge::StageStatus FakeStage::exchange(std::uint16_t heartbeat) {
+  heartbeats.push_back(heartbeat);
   on_exchange();
   return look();
 }
@@ -53,34 +53,61 @@ void FakeStage::issue(std::uint32_t sequence, const bridge::StageCommand& comman
   handed_over.push_back({sequence, command});
   if (silent) throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
   if (lost_answer && lost_answer->action == command.action) {
-    const bool arrived = std::exchange(lost_answer, std::nullopt)->arrived;
-    if (arrived) begin(sequence, command);
-    throw DeviceError(DeviceError::Kind::timeout, "stage: no answer");
+    const LostAnswer lost = *std::exchange(lost_answer, std::nullopt);
+    if (lost.arrived) begin(sequence, command);
+    throw DeviceError(lost.seen_as, "stage: no answer");
   }
   begin(sequence, command);
 }
 
 void FakeStage::begin(std::uint32_t sequence, const bridge::StageCommand& command) {
-  if (sequence == status.sequence_started || command.action == ignored) return;
+  if (sequence <= status.sequence_started || command.action == ignored) return;
+  const bool busy = under_way_ || status.state == ControllerState::busy;
+  if (busy && command.action != StageAction::stop) {
+    throw DeviceError(DeviceError::Kind::refused, "stage: it is busy");
+  }
   on_command(command);
+  if (under_way_) end(under_way_->sequence, CommandResult::aborted);
   executed.push_back({sequence, command});
   status.sequence_started = sequence;
-  under_way_ = Executed{sequence, command};
-  exchanges_left_ = command.action == StageAction::stop ? 1 : exchanges_per_command;
-  if (interlocked && command.action != StageAction::stop) {
-    status.sequence_finished = sequence;
-    status.last_result = CommandResult::refused;
-    under_way_.reset();
+  if (refuses(command)) {
+    end(sequence, CommandResult::refused);
     return;
   }
-  status.state = ControllerState::busy;
+  under_way_ = Executed{sequence, command};
+  exchanges_left_ = command.action == StageAction::stop ? 1 : exchanges_per_command;
+  if (status.state != ControllerState::faulted) status.state = ControllerState::busy;
+}
+
+bool FakeStage::refuses(const bridge::StageCommand& command) const {
+  if (command.action == StageAction::stop) return false;
+  if (interlocked) return true;
+  if (command.action == StageAction::reset_fault) {
+    return status.interlocks.estop_pressed || status.interlocks.door_open;
+  }
+  return status.state == ControllerState::faulted;
+}
+
+void FakeStage::end(std::uint32_t sequence, CommandResult result) {
+  under_way_.reset();
+  status.last_result = result;
+  status.sequence_finished = sequence;
+}
+
+void FakeStage::fault(std::uint16_t code) {
+  if (under_way_) end(under_way_->sequence, CommandResult::aborted);
+  status.state = ControllerState::faulted;
+  status.fault_code = code;
+  status.interlocks.watchdog_tripped = code == kWatchdogFault;
+  if (!wheel_runs_on) status.spindle_rpm = 0.0;
 }
 
 void FakeStage::finish() {
-  const Executed done = *std::exchange(under_way_, std::nullopt);
-  status.sequence_finished = done.sequence;
-  status.last_result = CommandResult::done;
-  status.state = ControllerState::idle;
+  const Executed done = *under_way_;
+  end(done.sequence, CommandResult::done);
+  const bool stays_faulted =
+      status.state == ControllerState::faulted && done.command.action != StageAction::reset_fault;
+  if (!stays_faulted) status.state = ControllerState::idle;
   if (!wheel_runs_on) status.spindle_rpm = done.command.spindle_rpm;
   switch (done.command.action) {
     case StageAction::home:
@@ -177,6 +204,10 @@ bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
   if (frozen) frame.image = last_picture_.clone();
   last_picture_ = frame.image.clone();
   frame.sequence = static_cast<std::uint64_t>(captures);
+  if (repeated_frames > 0) {
+    --repeated_frames;
+    --frame.sequence;
+  }
   if (old_frames > 0) {
     --old_frames;
     frame.sensor_timestamp = std::chrono::nanoseconds(1);

@@ -11,13 +11,14 @@
 
 #include "acquisition/worker.hpp"
 #include "firmware_bridge/camera/camera.hpp"
+#include "firmware_bridge/device_error.hpp"
 #include "firmware_bridge/lines/lines.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::tests {
 
-/// A controller that does what a good one does, a few exchanges a command. The knobs make it
-/// another.
+/// A controller that keeps the rules of docs/register-map.md, a few exchanges a command. The knobs
+/// make it another.
 struct FakeStage : bridge::Stage {
   bridge::StageIdentity identity{.map_version = 2,
                                  .watchdog_timeout = std::chrono::milliseconds(1000),
@@ -33,11 +34,14 @@ struct FakeStage : bridge::Stage {
   bool blind = false;                   ///< takes heartbeats and commands, and shows nothing
   bool wheel_runs_on = false;           ///< once it turns, whatever is commanded
   bool interlocked = false;             ///< refuses every command but stop
+  bool stuck = false;                   ///< what is under way does not come to its end
   std::optional<double> feed_error_um;  ///< the wheel comes to rest beside its target
-  /// An action whose next issue is answered by a time-out, and whether it arrived all the same.
+  /// An action whose next issue is not answered, whether it arrived all the same, and what shows
+  /// that no answer came.
   struct LostAnswer {
     bridge::StageAction action;
     bool arrived;
+    bridge::DeviceError::Kind seen_as = bridge::DeviceError::Kind::timeout;
   };
   std::optional<LostAnswer> lost_answer;
   std::optional<bridge::StageAction> ignored;  ///< is answered and starts nothing
@@ -50,8 +54,9 @@ struct FakeStage : bridge::Stage {
     std::uint32_t sequence;
     bridge::StageCommand command;
   };
-  std::vector<Executed> executed;     ///< every command that was begun
-  std::vector<Executed> handed_over;  ///< every call of issue, arrived or not
+  std::vector<Executed> executed;         ///< every command that was begun
+  std::vector<Executed> handed_over;      ///< every call of issue, arrived or not
+  std::vector<std::uint16_t> heartbeats;  ///< of every exchange, answered or not
 
   FakeStage();
   bridge::StageIdentity identify() override;
@@ -59,11 +64,16 @@ struct FakeStage : bridge::Stage {
   bridge::StageStatus exchange(std::uint16_t heartbeat) override;
   void issue(std::uint32_t sequence, const bridge::StageCommand& command) override;
 
+  /// It falls into a fault: what is under way is aborted, and the wheel stopped.
+  void fault(std::uint16_t code);
+
   std::vector<double> ground() const;  ///< targets of the grind passes that were begun
   int count(bridge::StageAction action) const;
 
  private:
   void begin(std::uint32_t sequence, const bridge::StageCommand& command);
+  bool refuses(const bridge::StageCommand& command) const;
+  void end(std::uint32_t sequence, bridge::CommandResult result);
   void finish();
   void aim();
 
@@ -91,6 +101,7 @@ struct FakeCamera : bridge::Camera {
   std::optional<double> stuck_face_um;  ///< shows the face of this depth, whatever is ground
   bool frozen = false;                  ///< gives its last picture again, with a new number
   int old_frames = 0;                   ///< so many of the next frames were exposed long ago
+  int repeated_frames = 0;  ///< so many of the next frames have the number before theirs
   int captures = 0;
   std::optional<bridge::LensRange> lens;  ///< it can drive; then the lens focuses, not the column
   std::vector<double> lens_positions;     ///< where it was driven, dioptres

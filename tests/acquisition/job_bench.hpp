@@ -24,6 +24,7 @@ struct JobBench {
   FakeCamera camera{stage};
   bridge::Camera* plain_camera = nullptr;  ///< as in JobParts
   InlineWorker worker;
+  acquisition::Worker* job_worker = &worker;  ///< the one that a job is given
   InlineWorker volume_worker;
   acquisition::OperatorDesk desk;
   acquisition::StatusBoard board;

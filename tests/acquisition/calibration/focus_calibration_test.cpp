@@ -267,8 +267,8 @@ TEST_F(FocusCalibrationTest, IsRefusedWhileTheControllerIsBusy) {
 }
 
 TEST_F(FocusCalibrationTest, OfAFaultedControllerAsksForAnAcknowledgement) {
-  bench.stage.status.state = bridge::ControllerState::faulted;
-  bench.stage.status.fault_code = 2;
+  constexpr std::uint16_t kDoor = 2;
+  bench.stage.fault(kDoor);
   EXPECT_THAT(bench.say(OperatorCommand::calibrate_focus).sentence,
               HasSubstr("the controller is faulted: door): acknowledge it first"));
   EXPECT_EQ(bench.state(), JobState::faulted);

@@ -19,6 +19,8 @@ using testing::HasSubstr;
 
 constexpr std::uint16_t kWatchdog = 3;
 constexpr std::uint16_t kDrive = 5;
+constexpr double kWarm = -2.0;
+constexpr double kCold = -30.0;
 
 std::filesystem::path journal(const JobBench& bench) {
   return bench.settings.plan.sample / "journal.sqlite";
@@ -47,6 +49,35 @@ TEST(EarlierRun, WasRunningInEveryStepOfALayer) {
     EXPECT_TRUE(read_earlier_run(journal(bench)).was_running) << to_string(state);
   }
   EXPECT_GT(read_earlier_run(journal(bench)).last_sequence, 0U);
+}
+
+TEST(EarlierRun, WasRunningWhileItWasConditionedWithdrawnAndHeld) {
+  JobBench bench;
+  bench.settings.limits.temperature_resumes = true;
+  bench.start_daemon();
+  bench.stage.status.block_temperature_c = kWarm;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::conditioning)) << bench.alarm();
+  EXPECT_TRUE(read_earlier_run(journal(bench)).was_running);
+  bench.stage.status.block_temperature_c = kCold;
+  ASSERT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+  bench.stage.exchanges_per_command = 6000;
+  bench.tick(10);
+  bench.stage.status.block_temperature_c = kWarm;
+  ASSERT_TRUE(bench.reach(JobState::withdrawing)) << bench.alarm();
+  bench.stage.exchanges_per_command = 2;
+  EXPECT_TRUE(read_earlier_run(journal(bench)).was_running);
+  ASSERT_TRUE(bench.reach(JobState::held)) << bench.alarm();
+  EXPECT_TRUE(read_earlier_run(journal(bench)).was_running);
+}
+
+TEST(EarlierRun, WasRunningWhileItsVolumeWasMadeComplete) {
+  JobBench bench;
+  bench.settings.plan.layers = 1;
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::finishing)) << bench.alarm();
+  EXPECT_TRUE(read_earlier_run(journal(bench)).was_running);
 }
 
 TEST(EarlierRun, WasNotRunningAfterAPauseAFaultAnAbortAndTheEnd) {
@@ -81,9 +112,7 @@ struct CrashedDaemon : testing::Test {
     EXPECT_TRUE(bench.reach(JobState::clearing));
     bench.job.reset();
     // The controller has missed the daemon's heartbeat and stopped by itself.
-    bench.stage.status.state = bridge::ControllerState::faulted;
-    bench.stage.status.fault_code = kWatchdog;
-    bench.stage.status.interlocks.watchdog_tripped = true;
+    bench.stage.fault(kWatchdog);
   }
   JobBench bench;
 };
@@ -226,7 +255,7 @@ TEST(EarlierRun, TellsOfAnAlarmThatNobodyAcknowledged) {
 }
 
 TEST_F(CrashedDaemon, WaitsForAnOperatorWhenTheControllerHasAnotherFault) {
-  bench.stage.status.fault_code = kDrive;
+  bench.stage.fault(kDrive);
   bench.start_daemon();
   bench.tick(500);
   EXPECT_EQ(bench.state(), JobState::faulted);
@@ -258,6 +287,57 @@ TEST_F(CrashedDaemon, StopsWhenJournalAndControllerDisagree) {
   EXPECT_EQ(bench.state(), JobState::faulted);
   EXPECT_THAT(bench.alarm(), HasSubstr("disagrees with the controller"));
   EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+// What it finds is idle or faulted, hence halted: only what is at work goes without a heartbeat.
+TEST_F(CrashedDaemon, GivesItsHeartbeatToAControllerThatStaysFaulted) {
+  bench.stage.fault(kDrive);
+  bench.start_daemon();
+  bench.stage.heartbeats.clear();
+  bench.tick(50);
+  EXPECT_EQ(bench.stage.status.state, bridge::ControllerState::faulted);
+  EXPECT_EQ(bench.stage.heartbeats.size(), 50U);
+}
+
+TEST_F(CrashedDaemon, WaitsForAnOperatorWhenTheRigIsNotReadyWithinAMinute) {
+  bench.stage.silent = true;
+  bench.start_daemon();
+  bench.tick(60 * 50 + 10);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the rig was not ready within 60 s"));
+  bench.stage.silent = false;
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_EQ(bench.stage.ground().size(), 3U);
+}
+
+TEST_F(CrashedDaemon, GoesOnByItselfWhenTheLinkComesUpWithinAMinute) {
+  bench.stage.silent = true;
+  bench.start_daemon();
+  bench.tick(50 * 50);
+  bench.stage.silent = false;
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
+TEST_F(CrashedDaemon, WaitsForTwoGoodSecondsOnEnd) {
+  bench.start_daemon();
+  bench.tick(90);
+  bench.stage.status.spindle_rpm = 100.0;
+  bench.tick();
+  bench.stage.status.spindle_rpm = 0.0;
+  bench.tick(90);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  bench.tick(20);
+  EXPECT_NE(bench.state(), JobState::faulted) << bench.alarm();
+}
+
+TEST_F(CrashedDaemon, WaitsForAControllerThatBoots) {
+  bench.stage.status.state = bridge::ControllerState::booting;
+  bench.stage.status.interlocks.watchdog_tripped = false;
+  bench.start_daemon();
+  bench.tick(500);
+  EXPECT_EQ(bench.state(), JobState::faulted) << bench.alarm();
+  bench.stage.status.state = bridge::ControllerState::idle;
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
 }
 
 }  // namespace

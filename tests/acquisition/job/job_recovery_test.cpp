@@ -56,6 +56,7 @@ TEST(JobRecovery, PhotographsWithoutGrindingWhenThePassEndedUnseen) {
   restart(bench);
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.stage.ground().size(), 5U);
+  EXPECT_EQ(bench.count_rows("grinds", "result = 'done'"), 5) << "its end is written down";
 }
 
 TEST(JobRecovery, StopsAPassThatItFindsUnderWayAndRepeatsIt) {
@@ -178,6 +179,33 @@ TEST(JobIssuing, HandsAGrindOverAgainOnlyAfterReadingBackThatItWasNotStarted) {
   });
   ASSERT_NE(std::next(first), calls.end());
   EXPECT_EQ(first->sequence, std::next(first)->sequence);
+}
+
+TEST(JobRecovery, DecidesNothingBeforeTheControllerIsIdleAndTheWheelStands) {
+  for (const bool busy : {true, false}) {
+    JobBench bench;
+    bench.start_job();
+    ASSERT_TRUE(bench.reach(JobState::recovering));
+    if (busy) {
+      bench.stage.status.state = bridge::ControllerState::busy;
+    } else {
+      bench.stage.status.spindle_rpm = -300.0;  // it runs down, backwards
+    }
+    bench.tick(20);
+    EXPECT_EQ(bench.state(), JobState::recovering);
+    EXPECT_TRUE(bench.stage.executed.empty());
+    bench.stage.status.state = bridge::ControllerState::idle;
+    bench.stage.status.spindle_rpm = 0.0;
+    EXPECT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+  }
+}
+
+TEST(JobRecovery, DoesNotSearchTheFocusAgain) {
+  JobBench bench;
+  die_in(bench, JobState::clearing, 3);
+  restart(bench);
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("focus_sweeps"), 1);
 }
 
 }  // namespace

@@ -94,6 +94,18 @@ TEST(JobStates, LeaveFaultedOnlyByAnAcknowledgement) {
   }
 }
 
+// From the air blast on, what turns would be a wheel above the open face; and before the first pass
+// nothing has told it to turn.
+TEST(JobStates, LetTheWheelTurnNeitherOverAFaceThatIsPhotographedNorWhileTheyOnlyWait) {
+  const std::set<JobState> standing = {
+      JobState::conditioning, JobState::clearing, JobState::settling,
+      JobState::lighting,     JobState::focusing, JobState::capturing,
+      JobState::assessing,    JobState::storing,  JobState::held};
+  for (const JobState state : all_job_states()) {
+    EXPECT_EQ(wheel_must_stand(state), standing.contains(state)) << to_string(state);
+  }
+}
+
 TEST(JobStates, AndEventsHaveEachANameOfTheirOwn) {
   std::set<std::string> names;
   for (const JobState state : all_job_states()) names.insert(to_string(state));

@@ -1,5 +1,6 @@
 #include "acquisition/job/job.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -84,6 +85,14 @@ TEST(Job, CarriesANewNumberWithEveryCommand) {
   for (std::size_t i = 1; i < bench.stage.executed.size(); ++i) {
     EXPECT_GT(bench.stage.executed[i].sequence, bench.stage.executed[i - 1].sequence);
   }
+}
+
+TEST(Job, GivesAnotherHeartbeatAtEveryExchange) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done));
+  const auto& beats = bench.stage.heartbeats;
+  EXPECT_EQ(std::adjacent_find(beats.begin(), beats.end()), beats.end());
 }
 
 TEST(Job, WritesAGrindDownBeforeItIsIssued) {
@@ -330,6 +339,15 @@ TEST(Job, TakesAgainAFrameThatWasExposedBeforeItWasAskedFor) {
   bench.start_job();
   ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
   bench.camera.old_frames = 1;
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'stale'"), 1);
+}
+
+TEST(Job, TakesAgainAFrameWhoseNumberItHasSeenAlready) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
+  bench.camera.repeated_frames = 1;
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'stale'"), 1);
 }

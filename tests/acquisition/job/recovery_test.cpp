@@ -120,6 +120,20 @@ TEST(Recovery, StopsWhenAFinishedPassIsGoneFromTheController) {
   EXPECT_THAT(reset.disagreement(), HasSubstr("disagrees with the controller"));
 }
 
+TEST(Recovery, StopsWhenTheLastPassWasFinishedAndTheControllerKnowsOnlyThoseBefore) {
+  Case replaced;
+  replaced.journalled(3, 4, true);
+  replaced.ground(3, 1040.0);
+  EXPECT_THAT(replaced.disagreement(), HasSubstr("disagrees with the controller"));
+}
+
+TEST(Recovery, StopsWhenTheControllerDoesNotKnowThePassOfACommittedLayer) {
+  Case replaced;
+  replaced.journalled(4, 4, false);
+  replaced.ground(3, 1040.0);
+  EXPECT_THAT(replaced.disagreement(), HasSubstr("disagrees with the controller"));
+}
+
 TEST(Recovery, StopsWhenTheGeometryWasChanged) {
   Case changed;
   changed.journalled(3, 3, true);

@@ -51,5 +51,20 @@ TEST(VolumeFeed, TellsAFailureAndTriesAgainWithTheNextLayer) {
   EXPECT_EQ(feed.progress().layers_present, 2);
 }
 
+TEST(VolumeFeed, IsNotFinishedByALastLayerThatFails) {
+  InlineWorker worker;
+  bool broken = true;
+  VolumeFeed feed(worker, [&](std::int64_t available, bool, const auto& progress) {
+    if (broken) throw std::runtime_error("disk full");
+    progress(available);
+  });
+  feed.finish(3);
+  EXPECT_EQ(feed.progress().failure, "disk full");
+  EXPECT_FALSE(feed.progress().finished);
+  broken = false;
+  feed.finish(3);
+  EXPECT_TRUE(feed.progress().finished);
+}
+
 }  // namespace
 }  // namespace biotomy::tests

@@ -146,5 +146,35 @@ TEST(MotionWatch, ForgetsWhereTheAxesWereWhenItIsTold) {
   EXPECT_EQ(machine.cause(), "");
 }
 
+TEST(MotionWatch, CountsStandstillAndStallFromTheCommandOnAndNotFromTheOneBefore) {
+  Watched machine(ControllerState::busy);
+  machine.look(milliseconds(1000));
+  machine.status.state = ControllerState::idle;
+  machine.look(SafetyLimits{}.standstill * 2);
+  machine.status.state = ControllerState::busy;
+  machine.status.feed_target = {1000.0};
+  machine.look(milliseconds(1000));
+  EXPECT_EQ(machine.cause(), "");
+}
+
+TEST(MotionWatch, SeesAnAxisThatStopsShortOfWhereItIsGoingFromEitherSide) {
+  for (const double target : {-1000.0, 1000.0}) {
+    Watched machine(ControllerState::busy);
+    machine.status.column_target = {target};
+    machine.look(SafetyLimits{}.axis_stall + milliseconds(60));
+    EXPECT_THAT(machine.cause(), HasSubstr("the column stands still")) << target;
+  }
+}
+
+TEST(MotionWatch, SeesAnAxisThatLeavesItsPlaceEitherWay) {
+  for (const double way : {-6.0, 6.0}) {
+    Watched machine(ControllerState::idle);
+    machine.look(milliseconds(100));
+    machine.status.traverse.value += way;
+    machine.look(milliseconds(20));
+    EXPECT_THAT(machine.cause(), HasSubstr("the traverse moves by itself")) << way;
+  }
+}
+
 }  // namespace
 }  // namespace biotomy::acquisition

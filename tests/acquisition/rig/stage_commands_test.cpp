@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "firmware_bridge/device_error.hpp"
 #include "tests/acquisition/fake_rig.hpp"
 
 namespace biotomy::tests {
@@ -81,6 +82,38 @@ TEST(StageCommands, TellWhenAStartedCommandIsForgotten) {
   EXPECT_FALSE(bench.poll());
   bench.stage.status.sequence_started = 0;
   EXPECT_THAT([&] { bench.poll(); }, ThrowsMessage<StepFailure>(HasSubstr("forgot")));
+}
+
+TEST(StageCommands, ReadBackWhetherACommandArrivedHoweverTheAnswerWasLost) {
+  using Kind = bridge::DeviceError::Kind;
+  for (const Kind kind : {Kind::timeout, Kind::disconnected}) {
+    for (const bool arrived : {false, true}) {
+      Bench bench;
+      bench.stage.lost_answer = {StageAction::home, arrived, kind};
+      EXPECT_NO_THROW(bench.commands.begin({.action = StageAction::home}, bench.now));
+      EXPECT_TRUE(bench.poll_until_done());
+      EXPECT_EQ(bench.stage.handed_over.size(), arrived ? 1U : 2U);
+      EXPECT_EQ(bench.stage.count(StageAction::home), 1);
+    }
+  }
+}
+
+TEST(StageCommands, AreFinalWhenTheStageSaysNo) {
+  using Kind = bridge::DeviceError::Kind;
+  for (const Kind kind : {Kind::refused, Kind::configuration}) {
+    Bench bench;
+    bench.stage.lost_answer = {StageAction::home, false, kind};
+    EXPECT_THROW(bench.commands.begin({.action = StageAction::home}, bench.now), StepFailure);
+  }
+}
+
+TEST(StageCommands, TellWhenACommandThatWasTakenIsNotStarted) {
+  Bench bench;
+  bench.stage.ignored = StageAction::home;
+  bench.commands.begin({.action = StageAction::home}, bench.now);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(bench.poll());  // as long as command_start
+  EXPECT_THAT([&] { bench.poll(); }, ThrowsMessage<StepFailure>(HasSubstr("does not start it")));
+  EXPECT_EQ(bench.stage.handed_over.size(), 1U);
 }
 
 }  // namespace

@@ -157,8 +157,8 @@ TEST_F(RigCheck, SeesThatTheControllersProgramStandsStill) {
 }
 
 TEST_F(RigCheck, DoesNotTakeForWrongWhatAnAcknowledgementCures) {
-  bench.stage.status.state = bridge::ControllerState::faulted;
-  bench.stage.status.fault_code = 3;
+  constexpr std::uint16_t kWatchdog = 3;
+  bench.stage.fault(kWatchdog);
   const RigFindings findings = check();
   EXPECT_TRUE(findings.can_start()) << findings_text(findings);
   EXPECT_THAT(findings.all(), Contains(finding(Kind::note, "controller",

@@ -1,0 +1,54 @@
+// What a job does while the worker, which has the disk and the camera, takes its time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "acquisition/job/job.hpp"
+#include "tests/acquisition/held_job_bench.hpp"
+
+namespace biotomy::tests {
+namespace {
+
+using namespace acquisition;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+struct JobThatWaits : testing::Test {
+  JobThatWaits() { bench.start_job(); }
+  HeldJobBench bench;
+};
+
+TEST_F(JobThatWaits, DoesNotIssueAGrindBeforeItsIntentIsWritten) {
+  ASSERT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
+  bench.tick(200);
+  EXPECT_EQ(bench.state(), JobState::grinding);
+  EXPECT_THAT(bench.stage.ground(), IsEmpty());
+  bench.held.run();
+  bench.tick(2);
+  EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0));
+}
+
+TEST_F(JobThatWaits, TicksOnWhileAFrameIsTakenAssessedAndStored) {
+  for (const JobState state : {JobState::capturing, JobState::assessing, JobState::storing}) {
+    ASSERT_TRUE(bench.reach(state)) << bench.alarm();
+    bench.tick(3);
+    EXPECT_EQ(bench.state(), state);
+  }
+  EXPECT_EQ(bench.count_rows("layers"), 0);
+  bench.held.run();
+  bench.tick();
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+  EXPECT_EQ(bench.board.look()->committed, 1);
+}
+
+TEST_F(JobThatWaits, LeavesOneRecordOfAFrameThatAnAlarmOvertakesWhileItIsStored) {
+  ASSERT_TRUE(bench.reach(JobState::storing)) << bench.alarm();
+  bench.lines.inputs.door_open = true;
+  bench.tick();
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  bench.held.run();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 1"), 1);
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+}
+
+}  // namespace
+}  // namespace biotomy::tests
