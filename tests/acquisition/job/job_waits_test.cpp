@@ -1,4 +1,6 @@
 // What a job does while the worker, which has the disk and the camera, takes its time.
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,6 +29,7 @@ TEST_F(JobThatWaits, DoesNotIssueAGrindBeforeItsIntentIsWritten) {
   EXPECT_THAT(bench.stage.ground(), ElementsAre(1000.0));
 }
 
+// A control thread that waited for the worker would never end here.
 TEST_F(JobThatWaits, TicksOnWhileAFrameIsTakenAssessedAndStored) {
   for (const JobState state : {JobState::capturing, JobState::assessing, JobState::storing}) {
     ASSERT_TRUE(bench.reach(state)) << bench.alarm();
@@ -46,8 +49,12 @@ TEST_F(JobThatWaits, LeavesOneRecordOfAFrameThatAnAlarmOvertakesWhileItIsStored)
   bench.tick();
   EXPECT_EQ(bench.state(), JobState::faulted);
   bench.held.run();
-  EXPECT_EQ(bench.count_rows("attempts", "layer = 1"), 1);
+  EXPECT_EQ(bench.count_rows("attempts"), 1);
+  EXPECT_EQ(bench.count_rows("attempts", "verdict = 'accepted'"), 1);
   EXPECT_EQ(bench.count_rows("layers"), 1);
+  const std::filesystem::path rejected = bench.settings.plan.sample / "rejected";
+  EXPECT_TRUE(!std::filesystem::exists(rejected) || std::filesystem::is_empty(rejected))
+      << "no picture of it is kept as of one that was given up";
 }
 
 }  // namespace
