@@ -136,6 +136,25 @@ TEST_F(GpiodLinesOnChips, AreSafeAgainWhenTheChipIsBackAndTheDebouncePeriodOver)
   EXPECT_EQ(look(*lines).failure, "");
 }
 
+// What the lines did meanwhile is unknown.
+TEST_F(GpiodLinesOnChips, AreUnsafeForTheDebouncePeriodAfterTheLastFailure) {
+  settings_.debounce = 50ms;
+  const auto lines = make();
+  fake_.unplug(kExpander);
+  ASSERT_NE(look(*lines).failure, "");
+  fake_.plug_in(kExpander);
+  SafetyInputs inputs = look(*lines);
+  for (int tick = 0; tick < 100 && !inputs.failure.empty(); ++tick) inputs = look(*lines);
+  ASSERT_EQ(inputs.failure, "") << "the lines are back";
+  for (int tick = 1; tick <= 2; ++tick) {
+    EXPECT_TRUE(inputs.estop_pressed) << tick;
+    EXPECT_TRUE(inputs.door_open) << tick;
+    inputs = look(*lines);
+  }
+  EXPECT_FALSE(inputs.estop_pressed);
+  EXPECT_FALSE(inputs.door_open);
+}
+
 TEST_F(GpiodLinesOnChips, FindAChipThatCameBackUnderAnotherNumber) {
   const auto lines = make();
   fake_.unplug(kExpander);

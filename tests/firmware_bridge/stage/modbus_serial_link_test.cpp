@@ -79,6 +79,14 @@ TEST_F(ModbusSerialLinkTest, GetsInStepBetweenTwoQuestionsWhoseAnswersLookAlike)
   EXPECT_EQ(slave_.requests, 2 * (kStepping + 1));
 }
 
+TEST_F(ModbusSerialLinkTest, BelievesNothingOfALineThatDoesNotGiveTheEchoBack) {
+  open(5s, 0);
+  slave_.constant_register = kEchoAddress;
+  EXPECT_EQ(kind_of_failure([&] { read(0); }), Kind::timeout);
+  slave_.constant_register = -1;
+  EXPECT_NO_THROW(read(0));
+}
+
 TEST_F(ModbusSerialLinkTest, ReadsAgainWhenTheAnswerWasDamaged) {
   open();
   read(0);

@@ -123,38 +123,72 @@ TEST_F(ModbusStageTest, LooksWithoutAHeartbeat) {
   EXPECT_THAT(state_.requests, ::testing::ElementsAre("read 2 32"));
 }
 
+// No two values are alike, so that none can be taken for another.
 TEST_P(ModbusStageOfAnyMap, ReportsTheStatusInItsUnits) {
   put("controller_state", 3);
-  put("fault_code", 2);
+  put("fault_code", 5);
   put("interlocks", 0b1010);
+  put("controller_heartbeat", 54321);
   put("command_result", 2);
   put("sequence_started", 4000000000.0);
+  put("sequence_finished", 3999999999.0);
   put("grind_count", 12);
   put("feed_position", -1234.5);
+  put("traverse_position", 80000.5);
+  put("column_position", 612.5);
   put("feed_target", -1200);
   put("traverse_target", 150000.5);
   put("column_target", 33.3);
   put("ground_position", 900.1);
+  put("spindle_speed", 1480);
+  put("spindle_load", 37.5);
+  put("vibration", 2.25);
   put("block_temperature", -40.25);
+  put("chamber_temperature", -25.5);
   put("outputs", 2);
   const StageStatus status = stage_.exchange(1);
   EXPECT_EQ(status.state, ControllerState::faulted);
-  EXPECT_EQ(status.fault_code, 2);
+  EXPECT_EQ(status.fault_code, 5);
   EXPECT_FALSE(status.interlocks.estop_pressed);
   EXPECT_TRUE(status.interlocks.door_open);
   EXPECT_FALSE(status.interlocks.watchdog_tripped);
   EXPECT_TRUE(status.interlocks.homed);
+  EXPECT_EQ(status.controller_heartbeat, 54321);
   EXPECT_EQ(status.last_result, CommandResult::refused);
   EXPECT_EQ(status.sequence_started, 4000000000U);
+  EXPECT_EQ(status.sequence_finished, 3999999999U);
   EXPECT_EQ(status.grind_count, 12U);
   EXPECT_NEAR(status.feed.value, -1234.5, kFloat);
+  EXPECT_NEAR(status.traverse.value, 80000.5, kFloat);
+  EXPECT_NEAR(status.column.value, 612.5, kFloat);
   EXPECT_NEAR(status.feed_target.value, -1200, kFloat);
   EXPECT_NEAR(status.traverse_target.value, 150000.5, kFloat);
   EXPECT_NEAR(status.column_target.value, 33.3, kFloat);
   EXPECT_NEAR(status.ground_to.value, 900.1, kFloat);
+  EXPECT_EQ(status.spindle_rpm, 1480);
+  EXPECT_EQ(status.spindle_load_percent, 37.5);
+  EXPECT_EQ(status.vibration_mm_s, 2.25);
   EXPECT_EQ(status.block_temperature_c, -40.25);
+  EXPECT_EQ(status.chamber_temperature_c, -25.5);
   EXPECT_FALSE(status.coolant_on);
   EXPECT_TRUE(status.air_on);
+}
+
+TEST_P(ModbusStageOfAnyMap, TellsTheInterlocksAndOutputsFromOneAnother) {
+  for (unsigned int bit = 0; bit < 4; ++bit) {
+    put("interlocks", 1U << bit);
+    const Interlocks found = stage_.look().interlocks;
+    EXPECT_EQ(found.estop_pressed, bit == 0);
+    EXPECT_EQ(found.door_open, bit == 1);
+    EXPECT_EQ(found.watchdog_tripped, bit == 2);
+    EXPECT_EQ(found.homed, bit == 3);
+  }
+  for (unsigned int bit = 0; bit < 2; ++bit) {
+    put("outputs", 1U << bit);
+    const StageStatus status = stage_.look();
+    EXPECT_EQ(status.coolant_on, bit == 0);
+    EXPECT_EQ(status.air_on, bit == 1);
+  }
 }
 
 TEST_P(ModbusStageOfAnyMap, RefusesACodeThatItDoesNotKnow) {
@@ -165,11 +199,12 @@ TEST_P(ModbusStageOfAnyMap, RefusesACodeThatItDoesNotKnow) {
 TEST_P(ModbusStageOfAnyMap, IssuesAWholeCommandInOneWrite) {
   stage_.issue(70000, {.action = StageAction::grind_pass,
                        .position = {1250.3},
-                       .duration = std::chrono::milliseconds(0),
+                       .duration = std::chrono::milliseconds(1500),
                        .spindle_rpm = 3000});
   ASSERT_EQ(state_.requests.size(), 1U);
   EXPECT_EQ(written("command"), 2);
   EXPECT_NEAR(written("argument_position"), 1250.3, kFloat);
+  EXPECT_EQ(written("argument_duration"), 1500);
   EXPECT_EQ(written("argument_spindle"), 3000);
   EXPECT_EQ(written("sequence"), 70000);
 }
@@ -190,15 +225,21 @@ TEST_P(ModbusStageOfAnyMap, SendsNothingForATargetThatDoesNotFit) {
 
 TEST_P(ModbusStageOfAnyMap, IdentifiesTheController) {
   put("watchdog_timeout", 1500);
+  put("feed_minimum", -100);
   put("feed_maximum", 50000);
   put("traverse_minimum", -10);
   put("traverse_maximum", 160000);
+  put("column_minimum", 20);
+  put("column_maximum", 10000);
   const StageIdentity identity = stage_.identify();
   EXPECT_EQ(identity.map_version, map_.version());
   EXPECT_EQ(identity.watchdog_timeout, std::chrono::milliseconds(1500));
+  EXPECT_NEAR(identity.feed.minimum.value, -100, kFloat);
   EXPECT_EQ(identity.feed.maximum.value, 50000);
   EXPECT_NEAR(identity.traverse.minimum.value, -10, kFloat);
   EXPECT_EQ(identity.traverse.maximum.value, 160000);
+  EXPECT_NEAR(identity.column.minimum.value, 20, kFloat);
+  EXPECT_EQ(identity.column.maximum.value, 10000);
 }
 
 TEST_P(ModbusStageOfAnyMap, RefusesAControllerWithOtherRegisters) {
@@ -209,6 +250,34 @@ TEST_P(ModbusStageOfAnyMap, RefusesAControllerWithOtherRegisters) {
   put("map_version", map_.version() + 1);
   EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.identify(); }),
               HasSubstr("has version " + std::to_string(map_.version() + 1)));
+}
+
+TEST_F(ModbusStageTest, RefusesANegativeNumberWhereThereShouldBeNone) {
+  const RegisterMap map =
+      RegisterMap::parse(replaced(map_text(), R"(table = "input", address = 3, type = "u16")",
+                                  R"(table = "input", address = 3, type = "i16")"),
+                         "map.toml");
+  ModbusStage stage(map, std::make_unique<FakeBus>(state_));
+  state_.input[3] = 0xFFFF;
+  EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage.look(); }),
+              HasSubstr("register fault_code holds -1, which it never should"));
+}
+
+/// The controller whose positions are floats.
+class ModbusStageOfFloats : public ModbusStageBench {
+ protected:
+  ModbusStageOfFloats() : ModbusStageBench(BIOTOMY_OTHER_REGISTER_MAP) {}
+};
+
+TEST_F(ModbusStageOfFloats, RefusesAPositionThatIsNoNumber) {
+  const auto at = static_cast<std::size_t>(map_.at("feed_position").address);
+  for (const std::uint16_t upper : {0x7FC0, 0x7F80, 0xFF80}) {  // NaN and both infinities
+    state_.input[at + 1] = upper;
+    EXPECT_THAT(testing::thrown_message<DeviceError>([&] { stage_.look(); }),
+                HasSubstr("register feed_position holds no number"));
+  }
+  state_.input[at + 1] = 0;
+  EXPECT_NO_THROW(stage_.look());
 }
 
 TEST_F(ModbusStageTest, RefusesAMapThatLacksAName) {

@@ -49,6 +49,8 @@ class SerialSlaveInAThread {
   std::atomic<int> doubled_answers = 0;    ///< given twice
   std::atomic<int> withheld_answers = 0;   ///< given before the next answer
   std::atomic<int> exception_answers = 0;  ///< "illegal data address" instead
+  /// A register that takes writes and keeps what it has; none below 0.
+  std::atomic<int> constant_register = -1;
 
  private:
   using Bytes = std::vector<std::uint8_t>;
@@ -90,7 +92,8 @@ class SerialSlaveInAThread {
     if (request[1] == 16) {
       answer.assign(request.begin(), request.begin() + 6);
       for (std::size_t i = 0; i < count; ++i) {
-        holding.at(address + i) = static_cast<std::uint16_t>(word(request, 7 + 2 * i));
+        const auto value = static_cast<std::uint16_t>(word(request, 7 + 2 * i));
+        if (static_cast<int>(address + i) != constant_register) holding.at(address + i) = value;
         if (address + i == 5) ++writes_of_register_5;
       }
       return answer;
