@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <future>
 #include <iterator>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -15,6 +18,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::Pair;
+using testing::UnorderedElementsAre;
 
 constexpr std::size_t kBrickBytes = 1000;
 
@@ -160,6 +165,40 @@ TEST(BricksInACache, AreFetchedOnceMoreForCellsThatTheyLack) {
   EXPECT_EQ(get(cache, {{0, 0, 1}}, 0, 0b1000), first) << "added to the same brick";
   EXPECT_EQ(get(cache, {{0, 0, 1}}, 0, 0b1110), first);
   EXPECT_THAT(shelf.cells, ElementsAre(0b0110, 0b1000));
+}
+
+// The second asker waits for the first, whose fetch goes on only once it does so.
+TEST(BricksInACache, AreFetchedOnceMoreByWhoWaitedForThemWithOtherCells) {
+  constexpr ChunkIndex kShared{0, 0, 1};
+  constexpr ChunkIndex kOther{0, 0, 2};
+  std::promise<void> first_begins;
+  std::promise<void> second_waits;
+  std::mutex mutex;
+  std::vector<std::pair<ChunkIndex, CellSet>> fetched;
+  BrickCache cache(10 * kBrickBytes, kBrickBytes, [&](int, std::span<const BrickFetch> wanted) {
+    std::vector<KeptBrick> bricks;
+    for (const BrickFetch& each : wanted) {
+      if (each.part.index == kOther) {
+        second_waits.set_value();
+      } else if (each.part.cells == 0b01) {
+        first_begins.set_value();
+        second_waits.get_future().wait();
+      }
+      const std::scoped_lock lock(mutex);
+      fetched.emplace_back(each.part.index, each.part.cells);
+      bricks.push_back(made_for(each));
+    }
+    return bricks;
+  });
+  std::thread first([&] { cache.get(0, std::vector<BrickPart>{{kShared, 0b01}}); });
+  first_begins.get_future().wait();
+  const auto bricks = cache.get(0, std::vector<BrickPart>{{kShared, 0b10}, {kOther, 0b01}});
+  first.join();
+  EXPECT_EQ(*bricks[0], std::byte{1});
+  EXPECT_EQ(*bricks[1], std::byte{2});
+  EXPECT_THAT(fetched,
+              UnorderedElementsAre(Pair(kShared, 0b01), Pair(kOther, 0b01), Pair(kShared, 0b10)));
+  EXPECT_THAT(cache.missing(0, parts({kShared}, 0b11)), IsEmpty());
 }
 
 TEST(BricksInACache, HaveEachThreadsCells) {

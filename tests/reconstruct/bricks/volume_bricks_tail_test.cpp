@@ -72,39 +72,64 @@ TEST(BricksOfASample, GivesTheLayersOfAStoredSampleBackAsSections) {
       << "of two bands those of the first twice: see VolumeBricks";
 }
 
-TEST(BricksOfASample, AreNotReadAgainWhereTheVolumeHasGrownBehindThem) {
-  const TemporaryFolder folder;
-  SampleDescription description;
-  description.name = "growing";
-  description.cuboid = {{kLayerSize.width, kLayerSize.height, 24}, {10.0, 10.0, 25.0}};
-  description.created = "2026-01-01T00:00:00Z";
-  const SampleFolder sample = SampleFolder::create(folder.path() / "growing", description);
-  const auto add_layers_up_to = [&](int first, int last) {
-    for (int layer = first; layer <= last; ++layer) {
-      write_layer_image(sample.layer_path(layer), layer_image(layer),
-                        {layer, description.cuboid.spacing}, {});
+/// A sample that is being photographed, seen in an upright plane.
+struct GrowingSample {
+  TemporaryFolder folder;
+  SampleDescription description = [] {
+    SampleDescription growing;
+    growing.name = "growing";
+    growing.cuboid = {{kLayerSize.width, kLayerSize.height, 24}, {10.0, 10.0, 25.0}};
+    growing.created = "2026-01-01T00:00:00Z";
+    return growing;
+  }();
+  SampleFolder sample = SampleFolder::create(folder.path() / "growing", description);
+  Plane upright = Plane::from_normal({0, 1, 0}, {0, 100, 0});
+  SectionRequest request{upright, section_basis(BasisKind::layer, upright), {}};
+  int layers = 0;
+
+  /// Its volume as it is then.
+  Volume grow_to(int last) {
+    while (layers < last) {
+      ++layers;
+      write_layer_image(sample.layer_path(layers), layer_image(layers),
+                        {layers, description.cuboid.spacing}, {});
     }
-  };
-  const Plane upright = Plane::from_normal({0, 1, 0}, {0, 100, 0});
-  const SectionRequest request{upright, section_basis(BasisKind::layer, upright), {}};
-  add_layers_up_to(1, 12);
-  VolumeWriter(sample, small_layout()).append(12, false);
-  const Volume volume = Volume::open(sample.volume_path());
-  const LayerTail tail(sample, volume);
+    VolumeWriter(sample, small_layout()).append(last, false);
+    return Volume::open(sample.volume_path());
+  }
+};
+
+TEST(BricksOfASample, AreNotReadAgainWhereTheVolumeHasGrownBehindThem) {
+  GrowingSample growing;
+  const Volume volume = growing.grow_to(12);
+  const LayerTail tail(growing.sample, volume);
   VolumeBricks bricks(volume, 10'000'000, {}, &tail);
-  cut_section(bricks, request);
+  cut_section(bricks, growing.request);
   ASSERT_EQ(volume.layers_present(), 8);
 
-  add_layers_up_to(13, 20);
-  VolumeWriter(sample, small_layout()).append(20, false);
-  const Volume grown = Volume::open(sample.volume_path());
+  const Volume grown = growing.grow_to(20);
   ASSERT_EQ(grown.layers_present(), 16);
-  const LayerTail grown_tail(sample, grown);
+  const LayerTail grown_tail(growing.sample, grown);
   VolumeBricks after(grown, 10'000'000, {}, &grown_tail, bricks);
   VolumeBricks anew(grown, 10'000'000, {}, &grown_tail);
-  const cv::Mat image = cut_section(after, request).image;
+  const cv::Mat image = cut_section(after, growing.request).image;
   EXPECT_EQ(grown.statistics().chunks_read, 4) << "those of layers 9 to 16";
-  EXPECT_EQ(cv::norm(image, cut_section(anew, request).image, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(image, cut_section(anew, growing.request).image, cv::NORM_INF), 0.0);
+}
+
+// As after a rebuild from fewer layers.
+TEST(BricksOfASample, AreNotTakenOverFromALongerVolume) {
+  GrowingSample before;
+  GrowingSample made_anew;
+  const Volume longer = before.grow_to(16);
+  const Volume shorter = made_anew.grow_to(8);
+  VolumeBricks bricks(longer, 10'000'000);
+  const cv::Mat all = cut_section(bricks, before.request).image;
+  VolumeBricks fresh(shorter, 10'000'000);
+  const cv::Mat expected = cut_section(fresh, before.request).image;
+  ASSERT_FALSE(same_pixels(expected, all)) << "it has nothing of layers 9 to 16";
+  VolumeBricks after(shorter, 10'000'000, {}, nullptr, bricks);
+  EXPECT_TRUE(same_pixels(cut_section(after, before.request).image, expected));
 }
 
 /// A sample whose volume ends before its layers do, beside the same one with a whole volume.

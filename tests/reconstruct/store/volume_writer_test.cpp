@@ -153,6 +153,24 @@ TEST_F(Writer, RefusesAStoreOfAnotherSample) {
               HasSubstr("does not fit"));
 }
 
+TEST_F(Writer, RefusesAStoreOfAnotherSpacing) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  VolumeMetadata metadata = group();
+  metadata.spacing.z *= 2.0;
+  write_text(sample_.volume_path() / "zarr.json", group_metadata(metadata));
+  EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(sample_, small_layout()); }),
+              HasSubstr("does not fit"));
+}
+
+TEST_F(Writer, RefusesAStoreThatShowsMoreLayersThanTheSampleHas) {
+  VolumeWriter(sample_, small_layout()).append(8, false);
+  VolumeMetadata metadata = group();
+  metadata.layers_present = sample_.description().cuboid.size.z + 1;
+  write_text(sample_.volume_path() / "zarr.json", group_metadata(metadata));
+  EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(sample_, small_layout()); }),
+              HasSubstr("does not fit"));
+}
+
 TEST_F(Writer, RefusesAStoreWithoutItsLevelsAndTellsHowToMendIt) {
   VolumeWriter(sample_, small_layout()).append(8, false);
   VolumeMetadata metadata = group();
