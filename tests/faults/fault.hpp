@@ -16,6 +16,7 @@ struct Fault {
   std::string error = "ENOSPC";  ///< ENOSPC, EIO or EROFS
   std::int64_t space = 0;        ///< so many bytes can still be written; 0: any number
   std::int64_t most_bytes = 0;   ///< one write or read transfers at most so many; 0: any number
+  bool cannot_exchange = false;  ///< its file system cannot let two names change places
   std::filesystem::path healed_by = {};  ///< once there is such a file, nothing fails any more
 };
 
@@ -33,6 +34,7 @@ inline std::vector<std::string> environment_of(const Fault& fault,
       "BIOTOMY_FAULT_HEALED_BY=" + fault.healed_by.string(),
       "BIOTOMY_FAULT_SPACE=" + std::to_string(fault.space),
       "BIOTOMY_FAULT_MOST_BYTES=" + std::to_string(fault.most_bytes),
+      "BIOTOMY_FAULT_CANNOT_EXCHANGE=" + std::to_string(static_cast<int>(fault.cannot_exchange)),
       "BIOTOMY_FAULT_COUNTS=" + counts.string(),
   };
 }

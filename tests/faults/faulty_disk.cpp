@@ -78,6 +78,7 @@ class FaultyDisk {
         times_(number("BIOTOMY_FAULT_TIMES")),
         space_(number("BIOTOMY_FAULT_SPACE")),
         most_bytes_(number("BIOTOMY_FAULT_MOST_BYTES")),
+        cannot_exchange_(number("BIOTOMY_FAULT_CANNOT_EXCHANGE") != 0),
         healed_by_(setting("BIOTOMY_FAULT_HEALED_BY")) {}
 
   ~FaultyDisk() {
@@ -127,6 +128,8 @@ class FaultyDisk {
     return room;
   }
 
+  bool cannot_exchange() const { return cannot_exchange_; }
+
   bool is_full_disk() const { return space_ > 0 && !is_healed(); }
 
   /// Bytes that can still be written; for a full disk only.
@@ -151,6 +154,7 @@ class FaultyDisk {
   std::int64_t times_;
   std::int64_t space_;
   std::int64_t most_bytes_;
+  bool cannot_exchange_;
   std::string healed_by_;
   Counts& counts_ = shared_counts();
 };
@@ -298,6 +302,10 @@ int rename(const char* from, const char* to) {
 }
 int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned int flags) {
+  if (disk().holds(to) && (flags & RENAME_EXCHANGE) != 0 && disk().cannot_exchange()) {
+    errno = EINVAL;
+    return -1;
+  }
   if (disk().holds(to) && disk().fails(kRename)) return -1;
   return real<int(int, const char*, int, const char*, unsigned int)>("renameat2")(
       from_folder, from, to_folder, to, flags);

@@ -279,13 +279,62 @@ TEST_F(FullDisk, AFilmIsWholeOrNotThere) {
   fill_the_disk(series, {}, [this] { fs::remove_all(disk_ / "frames"); });
 }
 
-TEST_F(FullDisk, ARebuildLeavesTheVolumeThatWasThere) {
-  prepare_sample();
-  const fs::path shard = prepared_ / "sample/volume.ome.zarr/0/c/0/0/0/0";
-  ASSERT_TRUE(fs::exists(shard));
-  std::ofstream(shard, std::ios::in | std::ios::out) << "damaged, so that old is told from new";
-  fail_in_turn({BIOTOMY_TOOL, "rebuild", disk_ / "sample"});
-  fill_the_disk({BIOTOMY_TOOL, "rebuild", disk_ / "sample"});
+/// A volume that is made anew, on a disk where the old one is told from the new.
+class RebuildOnAFaultyDisk : public FullDisk {
+ protected:
+  RebuildOnAFaultyDisk() {
+    prepare_sample();
+    const fs::path shard = prepared_ / "sample/volume.ome.zarr/0/c/0/0/0/0";
+    EXPECT_TRUE(fs::exists(shard));
+    std::ofstream(shard, std::ios::in | std::ios::out) << "damaged, so that old is told from new";
+    old_ = content_of_folder(prepared_ / "sample");
+    calls_ = calls_of(rebuild_);
+    new_ = content_of_folder(disk_ / "sample");
+  }
+
+  Outcome rebuild_on(const Fault& fault) const {
+    reset_disk();
+    return run_on(fault, rebuild_);
+  }
+
+  Command rebuild_{BIOTOMY_TOOL, "rebuild", disk_ / "sample"};
+  FolderContent old_;
+  FolderContent new_;
+  std::map<std::string, std::int64_t> calls_;  ///< when none fails
+};
+
+TEST_F(RebuildOnAFaultyDisk, LeavesTheVolumeThatWasThere) {
+  fail_in_turn(rebuild_);
+  fill_the_disk(rebuild_);
+}
+
+// The last sync is that of the folder in which the two have changed places.
+TEST_F(RebuildOnAFaultyDisk, TakesBackANewVolumeThatIsNotKnownToLast) {
+  expect_clear_failure(rebuild_on(
+      {.folder = disk_, .call = "sync", .at = calls_.at("sync"), .times = 1, .error = "EIO"}));
+  EXPECT_EQ(counted_calls().at("rename"), calls_.at("rename") + 1) << "there and back";
+  EXPECT_TRUE(content_of_folder(disk_ / "sample") == old_);
+}
+
+TEST_F(RebuildOnAFaultyDisk, RenamesThreeTimesWhereTwoFoldersCannotChangePlaces) {
+  const Outcome outcome = rebuild_on({.folder = disk_, .cannot_exchange = true});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(counted_calls().at("rename"), calls_.at("rename") + 2);
+  EXPECT_TRUE(content_of_folder(disk_ / "sample") == new_);
+}
+
+TEST_F(RebuildOnAFaultyDisk, PutsTheOldVolumeBackWhenTheNewOneCannotHaveItsName) {
+  const std::int64_t aside = calls_.at("rename");  // the first of the three
+  for (const std::int64_t failing : {aside, aside + 1}) {
+    SCOPED_TRACE("rename " + std::to_string(failing) + " fails");
+    expect_clear_failure(rebuild_on({.folder = disk_,
+                                     .call = "rename",
+                                     .at = failing,
+                                     .times = 1,
+                                     .error = "EIO",
+                                     .cannot_exchange = true}));
+    EXPECT_TRUE(content_of_folder(disk_ / "sample") == old_);
+  }
 }
 
 }  // namespace

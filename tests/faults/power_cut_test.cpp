@@ -201,23 +201,27 @@ TEST_F(PowerCut, LosesNothingThatWasCommittedAfterSyncsHadFailed) {
 }
 
 TEST_F(PowerCut, LosesNoFolderThatAKilledDaemonHadMadeAndNotSynced) {
-  KilledRun run(rig_->plan());
-  const std::filesystem::path log = run.rig().folder() / "disk.log";
-  run.rig().launch_daemon(recorded_and_killed(run.rig(), log, "before sync */volume.ome.zarr"));
-  run.rig().await_daemon();
-  const Outcome started = run.rig().rig("start");
-  ASSERT_EQ(started.exit_code, 0) << started.errors;
-  ASSERT_EQ(run.rig().await_daemon_end(kLongestJob).exit_code, 128 + SIGKILL);
-  run.rig().launch_daemon(recorded(run.rig(), log));
-  run.rig().await_daemon();
-  run.finish();
-  ASSERT_EQ(run.rig().end_daemon().exit_code, 0);  // at the end of its log
+  // The volume's own folder, and one that is made with its first shard.
+  for (const std::string folder : {"*/volume.ome.zarr", "*/volume.ome.zarr/0/c"}) {
+    SCOPED_TRACE("killed before it synced " + folder);
+    KilledRun run(rig_->plan());
+    const std::filesystem::path log = run.rig().folder() / "disk.log";
+    run.rig().launch_daemon(recorded_and_killed(run.rig(), log, "before sync " + folder));
+    run.rig().await_daemon();
+    const Outcome started = run.rig().rig("start");
+    ASSERT_EQ(started.exit_code, 0) << started.errors;
+    ASSERT_EQ(run.rig().await_daemon_end(kLongestJob).exit_code, 128 + SIGKILL);
+    run.rig().launch_daemon(recorded(run.rig(), log));
+    run.rig().await_daemon();
+    run.finish();
+    ASSERT_EQ(run.rig().end_daemon().exit_code, 0);  // at the end of its log
 
-  const PowerCuts cuts(run.rig(), RecordedDisk(log));
-  std::mt19937 random(42);
-  for (std::size_t cut = 0; cut <= cuts.disk().calls().size(); ++cut) {
-    ASSERT_THAT(cuts.complaints(cut, PowerLoss::everything, random), IsEmpty())
-        << "after call " << cut << " of " << cuts.disk().calls().size();
+    const PowerCuts cuts(run.rig(), RecordedDisk(log));
+    std::mt19937 random(42);
+    for (std::size_t cut = 0; cut <= cuts.disk().calls().size(); ++cut) {
+      ASSERT_THAT(cuts.complaints(cut, PowerLoss::everything, random), IsEmpty())
+          << "after call " << cut << " of " << cuts.disk().calls().size();
+    }
   }
 }
 

@@ -117,14 +117,15 @@ class SerialSlaveInAThread {
       return;
     }
     if (spoils(damaged_answers)) bytes[2] ^= 0x10U;
-    if (spoils(doubled_answers)) put(bytes);
-    put(withheld_);
+    // All in one, so that nothing depends on when this thread gets to write the rest.
+    Bytes all = spoils(doubled_answers) ? bytes : Bytes();
+    all.insert(all.end(), withheld_.begin(), withheld_.end());
     withheld_.clear();
-    put(bytes);
+    all.insert(all.end(), bytes.begin(), bytes.end());
+    put(all);
   }
 
   void put(const Bytes& bytes) {
-    if (bytes.empty()) return;
     [[maybe_unused]] const ssize_t written =
         ::write(terminal_->descriptor(), bytes.data(), bytes.size());
   }
