@@ -1,4 +1,5 @@
 import { service } from "../api/live";
+import { linkOf } from "../shell/explorer_link";
 import { Button } from "../ui/Button";
 import { CopyButton } from "./CopyButton";
 import type { ExplorerState } from "./explorer_state";
@@ -7,7 +8,6 @@ import { neuroglancerLink } from "./neuroglancer";
 import { fetchOutline } from "./section_fetch";
 import type { SectionTools } from "./section_tools";
 import { zoomAbout } from "./section_zoom";
-import { linkOf } from "./use_link";
 import { viewQuery } from "./view_hash";
 
 interface Props {
@@ -65,7 +65,7 @@ function toFullResolution(state: ExplorerState): void {
 }
 
 const linkTo = (state: ExplorerState): string =>
-  `${location.origin}${location.pathname}${linkOf(viewQuery(state.view.value))}`;
+  `${location.origin}${location.pathname}${linkOf(viewQuery(state.shownView.value))}`;
 
 /** At full resolution, whatever is on the screen; of a series, of the frame that is shown. */
 async function commandOf(state: ExplorerState): Promise<string> {
@@ -83,7 +83,7 @@ function NeuroglancerLink({ state }: { state: ExplorerState }) {
   return (
     <a
       class="button button-link"
-      href={neuroglancerLink(base, location.origin, sample, state.placed.value)}
+      href={neuroglancerLink(base, location.origin, sample, state.shownPlane.value)}
       target="_blank"
       rel="noopener noreferrer"
     >

@@ -7,7 +7,7 @@ import type { PlaneRectangle } from "./geometry/plane_rectangle";
 import type { Vector3 } from "./geometry/vector3";
 import { startingCamera } from "./orbit_camera";
 import type { OrbitCamera } from "./orbit_camera";
-import { alongLayers, diagonal, placePlane } from "./plane_state";
+import { alongLayers, diagonal, placePlane, tidied } from "./plane_state";
 import type { PlacedPlane, PlaneDefinition } from "./plane_state";
 import { defaultChoices } from "./section_choices";
 import type { SectionChoices, Theta } from "./section_choices";
@@ -81,11 +81,24 @@ export class ExplorerState {
 
   /** The plane that is shown: the series' own while one plays. */
   readonly shownPlane = computed(() => this.frame.value?.placed ?? this.placed.value);
+  readonly shownDefinition = computed<PlaneDefinition | null>(() => {
+    const frame = this.frame.value;
+    return frame ? tidied(frame.placed) : this.definition.value;
+  });
   readonly shownPicture = computed(() => this.frame.value?.picture ?? this.picture.value);
 
   /** What names the section as it is chosen, whatever part of it is looked at. */
   readonly query = computed<Query | null>(() => {
     const definition = this.definition.value;
+    return definition && { ...planeQuery(definition), ...choicesQuery(this.choices.value) };
+  });
+
+  /**
+   * What names the section in the plane that is shown, which while a series plays is its frame's.
+   * The axes of a frame turn with the series; those of the section are as of any section there.
+   */
+  readonly shownQuery = computed<Query | null>(() => {
+    const definition = this.shownDefinition.value;
     return definition && { ...planeQuery(definition), ...choicesQuery(this.choices.value) };
   });
 
@@ -170,6 +183,19 @@ export class ExplorerState {
     closeup: this.closeup.value,
     follow: this.follow.value,
   }));
+
+  /** Of a frame of a series, which is always seen whole, the section in its plane. */
+  readonly shownView = computed<ExplorerView>(() =>
+    this.frame.value
+      ? {
+          ...this.view.value,
+          plane: this.shownDefinition.value,
+          around: false,
+          closeup: null,
+          follow: false,
+        }
+      : this.view.value,
+  );
 
   /** Shows what a link holds. */
   open(view: ExplorerView): void {

@@ -37,7 +37,7 @@ export function orderOf(
   const { kind, format, movie, frames, rate } = choice;
   const placed = state.placed.value;
   const cuboid = state.cuboid.value;
-  const section = state.query.value;
+  const section = state.shownQuery.value;
   if (!placed || !cuboid || !section) return null;
   if (kind === "section") {
     const parameters = { ...section, ...pixelQuery(choice) };

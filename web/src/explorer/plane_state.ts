@@ -138,6 +138,16 @@ export function withOffset(placed: PlacedPlane, offset: number, cuboid: Cuboid):
   return { kind: "normal", normal: tidy(normal, decimalsOfDirections), through: tidy(through) };
 }
 
+/** The plane by itself, in numbers that people can read; a depth along the layers stays exact. */
+export function tidied({ plane, polygon, through, offset }: PlacedPlane): PlaneDefinition {
+  const [x, y, z] = tidy(polygon.length < 3 ? through : centroid(polygon));
+  return {
+    kind: "normal",
+    normal: tidy(plane.normal, decimalsOfDirections),
+    through: [x, y, isAlongLayers(plane) ? offset : z],
+  };
+}
+
 /** By so many rows of voxels along its normal; a plane along the layers goes from layer to layer. */
 export function nudged(placed: PlacedPlane, steps: number, cuboid: Cuboid): PlaneDefinition {
   if (isAlongLayers(placed.plane)) {

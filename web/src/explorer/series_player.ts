@@ -4,8 +4,8 @@ import { getJson, isAbort, sentenceOf } from "../api/client";
 import type { ExplorerState } from "./explorer_state";
 import { centre } from "./geometry/cuboid";
 import type { Cuboid } from "./geometry/cuboid";
-import { along, centroid, dot } from "./geometry/vector3";
-import { placePlane } from "./plane_state";
+import { along, dot } from "./geometry/vector3";
+import { placePlane, tidied } from "./plane_state";
 import type { PlaneDefinition } from "./plane_state";
 import { choicesQuery, queryText } from "./section_query";
 import type { Query } from "./section_query";
@@ -85,10 +85,8 @@ export class SeriesPlayer {
   cutHere(): void {
     const placed = this.state.frame.value?.placed;
     if (!placed) return;
-    const { plane, polygon } = placed;
-    const through = polygon.length < 3 ? placed.through : centroid(polygon);
     this.close();
-    this.state.move({ kind: "normal", normal: plane.normal, through });
+    this.state.move(tidied(placed));
   }
 
   /** False where there is no series, or another one was asked for meanwhile. */

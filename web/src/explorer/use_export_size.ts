@@ -23,7 +23,7 @@ export function useExportSize(
   useSignalEffect(() => {
     const chosen = choice.value;
     const abort = new AbortController();
-    const query = state.query.value;
+    const query = state.shownQuery.value;
     const placed = state.placed.value;
     const cuboid = state.cuboid.value;
     const series = placed && cuboid && seriesQuery(player.choice.value, placed, cuboid);

@@ -1,19 +1,22 @@
 import { effect, untracked } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 
+import { linkOf, seenInExplorer } from "../shell/explorer_link";
 import { replaceHash, route } from "../shell/route";
 import type { ExplorerState } from "./explorer_state";
 import { parseView, viewQuery } from "./view_hash";
 
 const rest_ms = 250;
 
-export const linkOf = (query: string): string => (query ? `#/explorer?${query}` : "#/explorer");
-
-/** The address holds the view: it follows the hand, and whoever changes it changes the view. */
+/**
+ * The address holds the view: it follows the hand, and whoever changes it changes the view. An
+ * address that names none is of the view that was seen last.
+ */
 export function useLink(state: ExplorerState): void {
   useEffect(() => {
     let written: string | null = null;
     let timer: ReturnType<typeof setTimeout> | undefined;
+    if (!route.peek().query.toString()) replaceHash(seenInExplorer.peek());
     const stopReading = effect(() => {
       const { path, query } = route.value;
       if (path[0] !== "explorer") return;
@@ -24,6 +27,7 @@ export function useLink(state: ExplorerState): void {
     });
     const stopWriting = effect(() => {
       const text = viewQuery(state.view.value);
+      seenInExplorer.value = linkOf(text);
       clearTimeout(timer);
       if (text === written) return;
       timer = setTimeout(() => {

@@ -1,5 +1,6 @@
 import { connection, service, status } from "../api/live";
 import { fixed } from "../ui/numbers";
+import { seenInExplorer } from "./explorer_link";
 import { route } from "./route";
 import { sampleName } from "./sample_name";
 import { isStartLatch, moodOf, wordsOf } from "./state_words";
@@ -21,7 +22,10 @@ export function Header() {
         {views
           .filter(({ name }) => isRig || name !== "run")
           .map(({ name, label }) => (
-            <a href={`#/${name}`} aria-current={here === name ? "page" : undefined}>
+            <a
+              href={name === "explorer" ? seenInExplorer.value : `#/${name}`}
+              aria-current={here === name ? "page" : undefined}
+            >
               {label}
             </a>
           ))}

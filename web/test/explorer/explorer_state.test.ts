@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it } from "vitest";
 import type { Sample } from "../../src/api/types";
 import { ExplorerState } from "../../src/explorer/explorer_state";
 import { movePoint, nudge, toLayer, turn } from "../../src/explorer/plane_moves";
+import { placePlane } from "../../src/explorer/plane_state";
 import type { SectionPicture, SectionRecord } from "../../src/explorer/section_record";
 import { parseView, viewQuery } from "../../src/explorer/view_hash";
 
@@ -135,6 +136,30 @@ describe("a close-up", () => {
     expect(state.closeup.value).not.toBeNull();
     state.choose({ theta: { kind: "inscribed" } });
     expect(state.closeup.value).toBeNull();
+  });
+});
+
+describe("while a frame of a series is shown", () => {
+  const layer21 = "normal=0,0,1&through=4995,4995,400";
+  beforeEach(() => {
+    state.open(parseView("normal=0,1,0&through=0,5000,0&closeup=10,5000,30,5&around=1"));
+    const placed = placePlane(parseView(layer21).plane!, state.cuboid.value!)!;
+    state.frame.value = { picture: picture({}), placed, pixel: 12 };
+  });
+
+  it("the section that is exported is the one in its plane", () => {
+    expect(state.shownQuery.value).toEqual({ normal: "0,0,1", through: "4995,4995,400" });
+  });
+
+  it("a link opens the section in its plane, all of it", () => {
+    expect(viewQuery(state.shownView.value)).toBe(layer21);
+  });
+
+  it("the plane from before the series is kept, to come back to", () => {
+    expect(state.query.value).toMatchObject({ normal: "0,1,0" });
+    state.frame.value = null;
+    expect(state.shownView.value).toBe(state.view.value);
+    expect(state.shownQuery.value).toEqual(state.query.value);
   });
 });
 

@@ -2,6 +2,8 @@ import { beforeEach, describe, expect, it } from "vitest";
 
 import { ExplorerState } from "../../src/explorer/explorer_state";
 import { defaultExport, orderOf } from "../../src/explorer/export_order";
+import { placePlane } from "../../src/explorer/plane_state";
+import type { SectionPicture } from "../../src/explorer/section_record";
 import { defaultSeries } from "../../src/explorer/series_choice";
 import { aSample } from "./a_sample";
 
@@ -23,6 +25,17 @@ describe("what is ordered", () => {
     });
     const coarse = orderOf(state, defaultSeries, { ...defaultExport, pixel: 25 });
     expect(coarse?.parameters.pixel).toBe("25");
+  });
+
+  it("is the section in the plane that is shown while a series plays", () => {
+    const definition = { kind: "normal", normal: [0, 0, 1], through: [0, 0, 400] } as const;
+    const placed = placePlane(definition, state.cuboid.value!)!;
+    const picture = {} as SectionPicture;
+    state.frame.value = { picture, placed, pixel: 10 };
+    const order = orderOf(state, defaultSeries, defaultExport);
+    expect(order?.parameters).toMatchObject({ normal: "0,0,1", through: "4995,4995,400" });
+    const series = orderOf(state, defaultSeries, { ...defaultExport, kind: "series" });
+    expect(series?.series?.normal).not.toBe("0,0,1"); // it goes on from where it began
   });
 
   it("is a series drawn as the section is, from its plane on", () => {

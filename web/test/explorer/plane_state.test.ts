@@ -9,6 +9,7 @@ import {
   diagonal,
   nudged,
   placePlane,
+  tidied,
   withAngles,
   withNormal,
   withOffset,
@@ -90,6 +91,22 @@ describe("moving a plane", () => {
 
   it("by steps along y moves by voxels", () => {
     expect(placed(nudged(placed(alongXz([0, 5000, 0])), 3, knee)).offset).toBeCloseTo(5030, 6);
+  });
+});
+
+describe("a plane by itself", () => {
+  it("is told in numbers that people can read", () => {
+    const third = placed({ kind: "normal", normal: [0, 1, 3], through: [1 / 3, 5000, 700] });
+    const told = tidied(third);
+    expect(told).toMatchObject({ kind: "normal", normal: [0, 0.316228, 0.948683] });
+    expect(JSON.stringify(told).length).toBeLessThan(100);
+    expect(placed(told).offset).toBeCloseTo(third.offset, 1);
+  });
+
+  it("keeps the exact depth of a layer", () => {
+    const thirds: Cuboid = { size: [10, 10, 10], spacing: [1, 1, 10 / 3] };
+    const layer = placePlane(alongLayers(thirds, 8), thirds)!;
+    expect(tidied(layer)).toEqual(alongLayers(thirds, 8));
   });
 });
 
