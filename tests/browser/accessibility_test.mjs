@@ -61,8 +61,9 @@ test("dialogs, light and dark", async () => {
     try {
       const { page } = tab;
       await open(tab, rig.url, views[0]);
-      await page.getByRole("button", { name: /^Start…?$/ }).click();
-      await page.getByRole("dialog", { name: "Start" }).waitFor();
+      await page.getByText("Calibrate the camera").click();
+      await page.getByRole("button", { name: "Find the focus" }).click();
+      await page.getByRole("dialog", { name: "Find the focus" }).waitFor();
       assert.deepEqual(await findings(page), []);
       await page.keyboard.press("Escape");
       await open(tab, rig.url, views[2]);

@@ -102,16 +102,18 @@ test("the focus stays in a dialog, and a run is started in it", async () => {
 
 test("a dialog stays while its command is on its way, however often Escape is pressed", async () => {
   const { page } = tab;
-  const command = "**/api/v1/control/start";
+  const command = "**/api/v1/control/calibrate-focus";
   let answer;
   const held = new Promise((resolve) => (answer = resolve));
   await page.route(command, async (route) => {
     await held;
     await route.fulfill({ json: { accepted: true, message: "it was kept waiting" } });
   });
-  await tabTo(({ name, tag }) => tag === "BUTTON" && /^Start…?$/.test(name), "Shift+Tab");
+  await tabTo(({ name, tag }) => tag === "SUMMARY" && name === "Calibrate the camera");
   await page.keyboard.press("Enter");
-  const asked = page.getByRole("dialog", { name: "Start" });
+  await tabTo(({ name, tag }) => tag === "BUTTON" && name === "Find the focus");
+  await page.keyboard.press("Enter");
+  const asked = page.getByRole("dialog", { name: "Find the focus" });
   await asked.getByLabel("Reason").focus();
   await page.keyboard.press("Enter");
   await asked.getByText("Asking…").waitFor();

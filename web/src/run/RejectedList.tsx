@@ -1,4 +1,4 @@
-import { hashOf } from "../shell/route";
+import { layerHash } from "../layers/layer_link";
 import { fixed } from "../ui/numbers";
 import { rejectedCount, rejectedOfLate } from "./run_history";
 
@@ -15,7 +15,7 @@ export function RejectedList() {
         <ol class="rejected-list">
           {shown.map(({ id, layer, attempt, reason, slug }) => (
             <li key={id}>
-              <a href={hashOf(["layers", layer])}>
+              <a href={layerHash({ layer, attempt })}>
                 Layer {fixed(layer)}, attempt {attempt}
               </a>{" "}
               {reason || slug}

@@ -7,6 +7,8 @@ export interface Column {
   limit: (number | null)[];
 }
 
+type MadeAttempt = Pick<Attempt, "id" | "layer" | "attempt" | "verdict" | "column_um">;
+
 /**
  * All attempts of the job as columns, in the order in which they were made: what was fetched, and
  * then what the event stream told.
@@ -14,6 +16,7 @@ export interface Column {
 export class AttemptHistory {
   last = 0; // id of the last attempt
   readonly layer: number[] = [];
+  readonly attempt: number[] = []; // at its layer, from 1
   readonly rejected: boolean[] = [];
   readonly columns = new Map<string, Column>();
   rejectedCount = 0;
@@ -35,7 +38,14 @@ export class AttemptHistory {
   load(history: History): void {
     history.id.forEach((id, row) => {
       if (id <= this.last) return;
-      this.add(id, history.layer[row], history.verdict[row], history.column_um[row], (name) => {
+      const made = {
+        id,
+        layer: history.layer[row],
+        attempt: history.attempt[row],
+        verdict: history.verdict[row],
+        column_um: history.column_um[row],
+      };
+      this.add(made, (name) => {
         const column = history.metrics[name];
         return [column?.value[row] ?? null, column?.limit[row] ?? null];
       });
@@ -45,7 +55,7 @@ export class AttemptHistory {
   /** False when it is here already. */
   append(attempt: Attempt): boolean {
     if (attempt.id <= this.last) return false;
-    this.add(attempt.id, attempt.layer, attempt.verdict, attempt.column_um, (name) => {
+    this.add(attempt, (name) => {
       const metric = attempt.metrics.find((candidate) => candidate.name === name);
       return [metric?.value ?? null, metric?.limit ?? null];
     });
@@ -53,14 +63,12 @@ export class AttemptHistory {
   }
 
   private add(
-    id: number,
-    layer: number,
-    verdict: string,
-    column_um: number | null,
+    { id, layer, attempt, verdict, column_um }: MadeAttempt,
     metric: (name: string) => [number | null, number | null],
   ): void {
     this.last = id;
     this.layer.push(layer);
+    this.attempt.push(attempt);
     const rejected = isRejected(verdict);
     this.rejected.push(rejected);
     if (rejected) this.rejectedCount += 1;

@@ -1,7 +1,8 @@
 import type uPlot from "uplot";
 
 import type { Bound } from "../journal/metric_words";
-import { goTo, hashOf } from "../shell/route";
+import { layerHash } from "../layers/layer_link";
+import { goTo } from "../shell/route";
 import { fixed } from "../ui/numbers";
 import { firstRowFrom, limitLines } from "./chart_data";
 import { history } from "./run_history";
@@ -107,7 +108,8 @@ export function chartOptions({
         (made) => {
           made.over.addEventListener("click", () => {
             const row = rejectedUnder(made);
-            if (row !== null) goTo(hashOf(["layers", history.layer[row]]));
+            if (row === null) return;
+            goTo(layerHash({ layer: history.layer[row], attempt: history.attempt[row] }));
           });
           // uPlot shows the whole again.
           made.over.addEventListener("dblclick", () => setZoomed(false));

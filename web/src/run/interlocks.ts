@@ -16,18 +16,19 @@ export function interlocksOf(status: Status): Interlock[] {
   const answers = status.stage?.answers ?? false;
   // What a silent controller said before is not known to be so now.
   const controller = answers ? status.interlocks.controller : null;
+  const isFaulted = status.stage?.controller_state === "faulted";
   return [
     twice("E-stop", lines.estop_pressed, controller?.estop_pressed, "pressed", "released"),
     twice("Door", lines.door_open, controller?.door_open, "open", "closed"),
     {
       name: "Controller",
-      words: answers ? "answers" : "does not answer",
-      good: answers,
+      words: !answers ? "does not answer" : isFaulted ? "is in a fault" : "answers",
+      good: answers && !isFaulted,
     },
     controller
       ? {
           name: "Watchdog",
-          words: controller.watchdog_tripped ? "has stopped the rig" : "at rest",
+          words: controller.watchdog_tripped ? "has stopped the rig" : "has not tripped",
           good: !controller.watchdog_tripped,
         }
       : { name: "Watchdog", words: "not known", good: null },

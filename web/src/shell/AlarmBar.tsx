@@ -14,12 +14,16 @@ export function AlarmBar() {
   if (!shown?.alarm) return null;
   const { cause, advice, since, state } = shown.alarm;
   const isStart = isStartLatch(shown);
+  const mayAcknowledge = shown.commands.includes("acknowledge");
   return (
     <section class="alarm-bar" data-kind={isStart ? "start" : "alarm"} aria-label="Alarm">
       <AlarmSign />
       <div role="alert">
-        <p class="alarm-cause">{isStart ? capital(cause) : `Alarm: ${cause}`}</p>
+        <AlarmCause prefix={isStart ? "" : "Alarm: "} cause={isStart ? capital(cause) : cause} />
         <p class="alarm-advice">{advice}</p>
+        {!mayAcknowledge && shown.waiting_for && (
+          <p class="alarm-waiting">{capital(shown.waiting_for)}.</p>
+        )}
         <p class="alarm-since">
           {isStart ? "" : `While the rig was ${wordsOf(state).short.toLowerCase()}, `}
           {isStart ? "Since" : "since"} <Since time={since} />
@@ -27,11 +31,21 @@ export function AlarmBar() {
       </div>
       <div class="alarm-actions">
         <SoundSwitch />
-        {shown.commands.includes("acknowledge") && (
-          <Button onClick={() => askFor("acknowledge")}>Acknowledge…</Button>
-        )}
+        {mayAcknowledge && <Button onClick={() => askFor("acknowledge")}>Acknowledge…</Button>}
       </div>
     </section>
+  );
+}
+
+/** What it is about stands out; what a device says of it, with its address, need not. */
+function AlarmCause({ prefix, cause }: { prefix: string; cause: string }) {
+  const [what, ...details] = cause.split(/(?=: )/);
+  return (
+    <p class="alarm-cause">
+      {prefix}
+      {what}
+      {details.length > 0 && <span class="alarm-details">{details.join("")}</span>}
+    </p>
   );
 }
 

@@ -38,7 +38,7 @@ export function Header() {
 function HeaderState() {
   const now = status.value;
   if (!now) return null;
-  const short = isStartLatch(now) ? "Switched on" : wordsOf(now.state).short;
+  const short = isStartLatch(now) ? "Just started" : wordsOf(now.state).short;
   const lost = connection.value.state === "lost";
   return (
     <div class="head-state" data-mood={lost ? "unknown" : moodOf(now)} data-state={now.state}>

@@ -1,4 +1,5 @@
 import type { JobState, Status } from "../api/types";
+import { fixed } from "../ui/numbers";
 
 /** How the state is told at a glance: by colour. */
 export type Mood = "resting" | "working" | "waiting" | "alarm";
@@ -73,7 +74,7 @@ export const stateWords: Record<JobState, Words> = {
   done: { short: "Done", sentence: "The job is done: every layer is stored.", mood: "resting" },
   aborted: {
     short: "Aborted",
-    sentence: "The job was aborted. Start goes on behind the last stored layer.",
+    sentence: "The job was aborted.",
     mood: "resting",
   },
   faulted: {
@@ -96,15 +97,26 @@ export function isStartLatch({ alarm }: Status): boolean {
   return alarm?.kind === "start_latch";
 }
 
+const startStates: ReadonlySet<JobState> = new Set(["idle", "aborted"]);
+
+/** Where a job that was begun goes on; empty for one that was not, or has every layer. */
+function whereItGoesOn({ committed, layers }: Status): string {
+  return committed > 0 && committed < layers
+    ? `Start goes on behind layer ${fixed(committed)}.`
+    : "";
+}
+
 /** The whole of it in a sentence or two. */
 export function stateSentence(status: Status): string {
   if (status.state === "faulted" && isStartLatch(status)) {
-    return "The rig has just been switched on and waits for you to acknowledge.";
+    const started = "The daemon has just started and waits for you to acknowledge.";
+    return `${started} ${whereItGoesOn(status)}`.trim();
   }
   const { sentence } = wordsOf(status.state);
   if (status.pause_requested && status.state !== "pausing" && status.state !== "paused") {
     return `${sentence} It pauses when this step is done.`;
   }
+  if (startStates.has(status.state)) return `${sentence} ${whereItGoesOn(status)}`.trim();
   return sentence;
 }
 

@@ -49,6 +49,7 @@ describe("AttemptHistory", () => {
     const heard = new AttemptHistory(["sharpness"]);
     for (const one of all) expect(heard.append(one)).toBe(true);
     expect(loaded.layer).toEqual([1, 2, 2]);
+    expect(loaded.attempt).toEqual([1, 1, 2]);
     expect(loaded.rejected).toEqual([false, true, false]);
     expect(loaded.column("sharpness")).toEqual({
       value: [1.01, 1.02, 1.03],
@@ -56,6 +57,7 @@ describe("AttemptHistory", () => {
     });
     expect(loaded.column("column_um").value).toEqual([601, 602, 602]);
     expect(heard.layer).toEqual(loaded.layer);
+    expect(heard.attempt).toEqual(loaded.attempt);
     expect(heard.rejected).toEqual(loaded.rejected);
     expect([...heard.columns]).toEqual([...loaded.columns]);
     expect(heard.rejectedCount).toBe(1);

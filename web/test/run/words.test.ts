@@ -3,8 +3,9 @@ import { describe, expect, it } from "vitest";
 import type { Interlocks } from "../../src/api/types";
 import { clockWords, timeLeft } from "../../src/run/eta_words";
 import { interlocksOf } from "../../src/run/interlocks";
+import { obstacleWords } from "../../src/run/obstacles";
 import { fit, windowWords } from "../../src/run/window_words";
-import { aStatus } from "../a_status";
+import { aStatus, anAlarm } from "../a_status";
 
 const now = new Date(2024, 4, 1, 22, 30).getTime();
 const hour = 3600;
@@ -98,5 +99,36 @@ describe("interlocksOf", () => {
   it("tell of a controller that stopped the rig by itself", () => {
     const tripped = { ...good, controller: { ...good.controller!, watchdog_tripped: true } };
     expect(named(tripped)["Watchdog"]).toEqual(["has stopped the rig", false]);
+    expect(named(good)["Watchdog"]).toEqual(["has not tripped", true]);
+    const faulted = { answers: true, controller_state: "faulted" } as never;
+    expect(named(good, faulted)["Controller"]).toEqual(["is in a fault", false]);
+  });
+});
+
+describe("what stands in the way of a rig at rest", () => {
+  const answering = { answers: true, controller_state: "idle" } as never;
+  const lines = { estop_pressed: true, door_open: false };
+  const controller = {
+    estop_pressed: true,
+    door_open: false,
+    watchdog_tripped: true,
+    homed: false,
+  };
+  const stopped = { stage: answering, interlocks: { lines, controller } };
+
+  it("is said before somebody tries", () => {
+    expect(obstacleWords(aStatus({ ...stopped, state: "paused" }))).toBe(
+      "Before you resume: e-stop pressed; watchdog has stopped the rig.",
+    );
+    expect(obstacleWords(aStatus({ ...stopped, state: "idle" }))).toMatch(/^Before you start: /);
+    expect(obstacleWords(aStatus({ ...stopped, state: "done" }))).toMatch(/^Before anything /);
+  });
+
+  it("is nothing on a good rig, at work, or where an alarm says it", () => {
+    const good = { lines: { ...lines, estop_pressed: false }, controller: null };
+    const rig = { stage: answering, interlocks: good };
+    expect(obstacleWords(aStatus({ ...rig, state: "paused" }))).toBe("");
+    expect(obstacleWords(aStatus({ ...stopped, state: "grinding" }))).toBe("");
+    expect(obstacleWords(aStatus({ ...stopped, state: "paused", alarm: anAlarm }))).toBe("");
   });
 });

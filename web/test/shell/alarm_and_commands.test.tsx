@@ -81,6 +81,14 @@ describe("alarm and commands", () => {
     expect(buttons()).toEqual([]);
   });
 
+  it("offers no start of a job that has every layer", () => {
+    const commands = ["start"];
+    show({ state: "done", committed: 80, layers: 80, commands });
+    expect(buttons()).toEqual([]);
+    show({ state: "done", committed: 80, layers: 90, commands });
+    expect(buttons()).toEqual(["Start"]);
+  });
+
   it("offers none that could not be sent", () => {
     show({ commands: ["pause"] }, true);
     expect(button("Pause")?.disabled).toBe(true);
@@ -94,6 +102,23 @@ describe("alarm and commands", () => {
     expect(bar?.querySelector("time")?.dateTime).toBe(alarm.since);
     show({ state: "idle", alarm: null });
     expect(page().querySelector('[role="alert"]')).toBeNull();
+  });
+
+  it("tells why an alarm can't be acknowledged yet", () => {
+    const waiting_for = "the cause is still there: the e-stop is pressed";
+    const waiting = () => page().querySelector(".alarm-waiting")?.textContent;
+    show({ state: "faulted", alarm, waiting_for, commands: [] });
+    expect(waiting()).toBe("The cause is still there: the e-stop is pressed.");
+    show({ state: "faulted", alarm, waiting_for, commands: ["acknowledge"] });
+    expect(waiting()).toBeUndefined();
+  });
+
+  it("writes small of an alarm what its device says", () => {
+    const cause = "stage at tcp://10.0.0.7:502: no answer: timed out";
+    show({ state: "faulted", alarm: { ...alarm, cause } });
+    const shown = page().querySelector(".alarm-cause");
+    expect(shown?.textContent).toBe(`Alarm: ${cause}`);
+    expect(shown?.querySelector(".alarm-details")?.textContent).toBe(": no answer: timed out");
   });
 
   it("sends a command with its reason, and shows the answer", async () => {

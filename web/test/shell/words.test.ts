@@ -59,8 +59,21 @@ describe("the state in words", () => {
     const latch = { ...alarm, state: "faulted", kind: "start_latch" } as const;
     const started = aStatus({ state: "faulted", alarm: latch });
     const stopped = aStatus({ state: "faulted", alarm });
-    expect(stateSentence(started)).toContain("just been switched on");
+    expect(stateSentence(started)).toContain("has just started");
     expect(stateSentence(stopped)).toContain("has stopped");
+  });
+
+  it("tells where a job goes on that was broken off", () => {
+    const latch = { ...alarm, state: "faulted", kind: "start_latch" } as const;
+    const broken = { committed: 51, layers: 80 };
+    const sentence = (changes: Partial<Status>) => stateSentence(aStatus(changes));
+    const end = / Start goes on behind layer 51\.$/;
+    expect(sentence({ ...broken, state: "faulted", alarm: latch })).toMatch(end);
+    expect(sentence({ ...broken, state: "idle" })).toMatch(end);
+    expect(sentence({ ...broken, state: "aborted" })).toMatch(end);
+    expect(sentence({ ...broken, state: "faulted", alarm })).not.toMatch(end);
+    expect(sentence({ state: "idle", committed: 0 })).not.toMatch(/Start/);
+    expect(sentence({ state: "aborted", committed: 80, layers: 80 })).not.toMatch(/Start/);
   });
 });
 
