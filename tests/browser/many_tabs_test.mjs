@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Tab, launch } from "./browser.mjs";
+import { askedForToken, command } from "./operator.mjs";
 import { Rig } from "./rig.mjs";
 import { until } from "./until.mjs";
 
@@ -98,4 +99,18 @@ test("another takes its place when it is closed", async () => {
   );
 });
 
-test("nothing failed and nothing was complained of", () => tab.assertNoFaults());
+test("windows side by side all show the rig, and each can command it", async () => {
+  await Promise.all(pages.map((page) => setSeen(page, true)));
+  await Promise.all(pages.map(isLive));
+  const allShow = (state) =>
+    Promise.all(pages.map((page) => page.locator(`header [data-state="${state}"]`).waitFor()));
+  await allShow("faulted");
+  rig.hand("release", "estop");
+  await rig.reaches("released", ({ commands }) => commands.includes("acknowledge"));
+  const [first] = pages; // that was looked at before all others
+  await command(first, "Acknowledge", { token: rig.token });
+  await allShow("paused");
+  assert.deepEqual(await Promise.all(pages.map(connectionOf)), Array(pages.length).fill("live"));
+});
+
+test("nothing failed and nothing was complained of", () => tab.assertNoFaults([askedForToken]));

@@ -4,6 +4,7 @@ import { ConnectionError, getJson, sentenceOf, servicePath } from "./client";
 import type { StreamEvent } from "./event_parser";
 import { EventStream } from "./events";
 import { type SeenTab, thisTab } from "./seen_tab";
+import { StreamTurns } from "./stream_turns";
 import { askAgain, setNeeds } from "./token";
 import type { Attempt, ExportJob, SampleProgress, Service, Status } from "./types";
 
@@ -91,11 +92,14 @@ const stream = new EventStream("/api/v1/events", {
     // The server may be another one than before: its version, its sample.
     if (connection.value.state !== "connecting" || !service.value) void learnService();
     changed("live");
+    turns.opened();
   },
   lost(why, retry_ms) {
     changed("lost", why, Date.now() + retry_ms);
   },
 });
+
+const turns = new StreamTurns(stream);
 
 const isSame = (one: Service, other: Service): boolean =>
   one.version === other.version && one.kind === other.kind && one.sample === other.sample;
@@ -129,17 +133,22 @@ const patience_ms = 1000;
 let patience: number | undefined;
 
 /** Whoever looks again sees what was known: it is old unless the server answers soon. */
-function hear(): void {
+function hear(inTurns: boolean): void {
   if (connection.value.state === "resting") {
     patience = window.setTimeout(() => {
       if (connection.value.state === "resting") changed("lost", new ConnectionError().message);
     }, patience_ms);
   }
-  stream.open();
+  if (inTurns) turns.begin();
+  else {
+    turns.end();
+    stream.open();
+  }
 }
 
 function rest(): void {
   clearTimeout(patience);
+  turns.end();
   stream.close();
   changed("resting");
 }
@@ -150,7 +159,8 @@ export function goLive(tab: SeenTab = thisTab()): void {
   void learnService().then(() =>
     effect(() => {
       const hears = tab.hears.value;
-      untracked(hears ? hear : rest);
+      const inTurns = tab.inTurns.value;
+      untracked(() => (hears ? hear(inTurns) : rest()));
     }),
   );
   window.addEventListener("online", () => stream.hurry());

@@ -1,4 +1,4 @@
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 
 /** That a tab was seen last: when, and which. */
 interface Claim {
@@ -11,6 +11,8 @@ interface Word {
   readonly claim: Claim;
   /** Its tab is being closed. */
   readonly isOver: boolean;
+  /** Somebody sees its tab still. */
+  readonly isSeen: boolean;
 }
 
 /** As much of a BroadcastChannel as is used. */
@@ -23,6 +25,7 @@ const longestWait_ms = 500;
 // A tab that crashed says nothing. One that nobody sees is woken once a minute by some browsers.
 const sign_ms = 60_000;
 const longestSilence_ms = 4 * sign_ms;
+const mostStreams = 4; // of the six connections: commands and pictures need the others
 
 /** Of two claims that cross, every tab takes the same for the later one. */
 const isLater = (claim: Claim, other: Claim | null) =>
@@ -32,16 +35,27 @@ const isLater = (claim: Claim, other: Claim | null) =>
  * Whether this tab of the browser is to hear the server's events. A browser opens no more than six
  * connections to a server: were each tab to hold one, a sixth would wait for ever. So a tab hears
  * while somebody sees it; and of those that nobody sees, the one that was seen last, whose title and
- * sound tell of an alarm.
+ * sound tell of an alarm. Of many windows that are seen side by side all but the last hear in turns.
  */
 export class SeenTab {
   private readonly seen = signal(false);
+  private readonly own = signal<Claim | null>(null);
+  /** Tabs that are seen, and were seen later than this one: when each was heard of. */
+  private readonly later = signal<ReadonlyMap<number, number>>(new Map());
   private readonly latest = signal<Claim | null>(null);
   private wait: ReturnType<typeof setTimeout> | undefined;
   private heard_ms = Date.now();
 
   /** False: the stream is other tabs'. */
   readonly hears = computed(() => !this.channel || this.seen.value || this.isLast());
+
+  /** True where it must give its stream back between two looks at what is new. */
+  readonly inTurns = computed(() => {
+    const latest = this.latest.value;
+    const before = new Set(this.later.value.keys());
+    if (latest && isLater(latest, this.own.value)) before.add(latest.tab);
+    return this.hears.value && before.size >= mostStreams;
+  });
 
   /** Without a channel nothing is known of other tabs, and this one always hears. */
   constructor(
@@ -58,14 +72,14 @@ export class SeenTab {
   show(seen: boolean): void {
     this.seen.value = seen;
     if (seen) this.take();
+    else this.say();
   }
 
   /** It is being closed. */
   leave(): void {
-    const claim = this.latest.value;
-    if (!claim || !this.isLast()) return;
-    this.latest.value = null;
-    this.channel?.postMessage({ claim, isOver: true });
+    if (this.isLast()) this.latest.value = null;
+    this.say(true);
+    this.own.value = null;
   }
 
   private isLast(): boolean {
@@ -73,9 +87,20 @@ export class SeenTab {
   }
 
   private giveSign(): void {
-    const claim = this.latest.value;
-    if (claim && this.isLast()) this.channel?.postMessage({ claim, isOver: false });
-    else if (Date.now() - this.heard_ms > longestSilence_ms) this.take();
+    this.forgetSilent();
+    if (this.isLast() || this.seen.value) this.say();
+    if (!this.isLast() && Date.now() - this.heard_ms > longestSilence_ms) this.take();
+  }
+
+  private forgetSilent(): void {
+    const since_ms = Date.now() - longestSilence_ms;
+    this.later.value = new Map([...this.later.value].filter(([, heard_ms]) => heard_ms > since_ms));
+  }
+
+  private say(isOver = false): void {
+    const claim = this.own.value;
+    const isSeen = this.seen.value;
+    if (claim) this.channel?.postMessage({ claim, isOver, isSeen });
   }
 
   private take(): void {
@@ -83,12 +108,32 @@ export class SeenTab {
     const before_ms = this.latest.value?.at_ms ?? 0;
     // Clocks are set back, too.
     const claim = { at_ms: Math.max(Date.now(), before_ms + 1), tab: this.name };
-    this.latest.value = claim;
-    this.channel?.postMessage({ claim, isOver: false });
+    batch(() => {
+      this.latest.value = claim;
+      this.own.value = claim;
+      this.later.value = new Map(); // there are none
+    });
+    this.say();
   }
 
-  private heard({ claim, isOver }: Word): void {
-    this.heard_ms = Date.now();
+  private heard(word: Word): void {
+    batch(() => {
+      this.note(word);
+      this.follow(word);
+    });
+  }
+
+  /** Whether its tab goes before this one. */
+  private note({ claim, isOver, isSeen }: Word): void {
+    const later = new Map(this.later.value);
+    if (isSeen && !isOver && isLater(claim, this.own.value)) later.set(claim.tab, Date.now());
+    else later.delete(claim.tab);
+    this.later.value = later;
+  }
+
+  /** Who was seen last. */
+  private follow({ claim, isOver }: Word): void {
+    if (!isLater(this.latest.value ?? claim, claim)) this.heard_ms = Date.now();
     if (!isOver) {
       clearTimeout(this.wait);
       if (isLater(claim, this.latest.value)) this.latest.value = claim;
@@ -108,6 +153,7 @@ export function thisTab(): SeenTab {
   look();
   document.addEventListener("visibilitychange", look);
   window.addEventListener("pageshow", look);
+  window.addEventListener("focus", look); // of windows side by side it is looked at
   window.addEventListener("pagehide", () => tab.leave());
   return tab;
 }

@@ -2,6 +2,7 @@ import "./run.css";
 import { useEffect } from "preact/hooks";
 
 import { connection, status } from "../api/live";
+import { Connecting } from "../shell/Connecting";
 import { durationWords } from "../shell/duration_words";
 import { now } from "../shell/now";
 import { Charts } from "./Charts";
@@ -40,7 +41,7 @@ export function RunView() {
           </div>
         </>
       ) : (
-        <h1>{lost ? "Nothing is known of the rig." : "Connecting…"}</h1>
+        <h1>{lost ? "Nothing is known of the rig." : <Connecting />}</h1>
       )}
     </main>
   );

@@ -4,6 +4,7 @@ import { connection, service } from "../api/live";
 import { RunView } from "../run/RunView";
 import { AlarmBar } from "./AlarmBar";
 import { CommandDialog } from "./CommandDialog";
+import { Connecting } from "./Connecting";
 import { ConnectionBanner } from "./ConnectionBanner";
 import { Header } from "./Header";
 import { LazyView } from "./LazyView";
@@ -55,7 +56,7 @@ function CurrentView() {
   return (
     <main id="main" class="view" tabIndex={-1}>
       <p class="muted">
-        {connection.value.state === "lost" ? "The server does not answer." : "Connecting…"}
+        {connection.value.state === "lost" ? "The server does not answer." : <Connecting />}
       </p>
     </main>
   );

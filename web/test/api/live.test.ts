@@ -76,7 +76,7 @@ describe("what is known at present", () => {
   const hideBehindAnother = () => {
     tab.show(false);
     const claim = { at_ms: Date.now() + 1, tab: 0 };
-    channel.onmessage?.({ data: { claim, isOver: false } });
+    channel.onmessage?.({ data: { claim, isOver: false, isSeen: true } });
   };
 
   it("is not listened for by a tab that nobody sees, and no loss is told of", async () => {
@@ -108,6 +108,32 @@ describe("what is known at present", () => {
     expect(live.connection.value.state).toBe("resting");
     await vi.advanceTimersByTimeAsync(200);
     expect(live.connection.value.state).toBe("lost");
+  });
+
+  it("is heard every few seconds, and is no less known, where other windows are seen too", async () => {
+    write('id: 7\nevent: attempt\ndata: {"id":7}\n\n');
+    await settle();
+    for (let other = 1; other <= 4; other += 1) {
+      const claim = { at_ms: Date.now() + other, tab: other };
+      channel.onmessage?.({ data: { claim, isOver: false, isSeen: true } });
+    }
+    await settle();
+    expect(streams.map(({ ended }) => ended)).toEqual([true]);
+    expect(live.connection.value.state).toBe("live");
+    for (let ms = 0; ms < 5100 && streams.length < 2; ms += 100) {
+      await vi.advanceTimersByTimeAsync(100);
+    }
+    expect(streams.map(({ lastId }) => lastId)).toEqual([null, "7"]);
+    write('event: status\ndata: {"state":"grinding"}\n\n');
+    await settle();
+    expect(live.status.value?.state).toBe("grinding");
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(streams.length).toBeGreaterThan(3);
+    expect(streams.slice(0, -1).every(({ ended }) => ended)).toBe(true);
+    tab.show(true);
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(streams.at(-1)?.ended).toBe(false);
+    expect(live.connection.value.state).toBe("live");
   });
 
   it("goes on being heard by the tab that was seen last, so that an alarm sounds", async () => {

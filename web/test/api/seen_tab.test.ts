@@ -160,6 +160,37 @@ describe("of the tabs of a browser", () => {
     expect(hearing(left, right)).toEqual([false, true]);
   });
 
+  it("of many that are seen side by side the four that were seen last need not take turns", () => {
+    const tabs = Array.from({ length: 6 }, () => browser.tab());
+    for (const tab of tabs) tab.show(true);
+    expect(hearing(...tabs)).toEqual(Array(6).fill(true));
+    const inTurns = () => tabs.map((tab) => tab.inTurns.value);
+    expect(inTurns()).toEqual([true, true, false, false, false, false]);
+    tabs[0].show(true); // it is looked at
+    expect(inTurns()).toEqual([false, true, true, false, false, false]);
+    tabs[4].show(false);
+    expect(inTurns()).toEqual([false, true, false, false, false, false]);
+    tabs[5].leave();
+    expect(inTurns().slice(0, 5)).toEqual([false, false, false, false, false]);
+  });
+
+  it("one that is seen last and then hidden has its stream still, which counts", () => {
+    const tabs = Array.from({ length: 5 }, () => browser.tab());
+    for (const tab of tabs) tab.show(true);
+    tabs[4].show(false);
+    expect(tabs.map((tab) => tab.inTurns.value)).toEqual([true, false, false, false, false]);
+  });
+
+  it("those that crashed hold none for ever", () => {
+    const tabs = Array.from({ length: 5 }, () => browser.tab());
+    for (const tab of tabs) tab.show(true);
+    browser.crash(tabs[2]);
+    vi.advanceTimersByTime(180_000);
+    expect(tabs[0].inTurns.value).toBe(true);
+    vi.advanceTimersByTime(180_000);
+    expect(tabs[0].inTurns.value).toBe(false);
+  });
+
   it("each hears where they can't speak to each other", () => {
     const tab = new SeenTab(null);
     tab.show(false);
