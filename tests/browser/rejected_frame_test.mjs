@@ -1,10 +1,11 @@
 // A rejected frame is found in the film strip, and looked at beside the accepted one.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Tab, launch } from "./browser.mjs";
+import { Tab, launch, phone } from "./browser.mjs";
 import { colours, pixelsOf } from "./pictures.mjs";
 import { Rig } from "./rig.mjs";
 import { rejectionsAtLayer4 } from "./scenarios.mjs";
+import { until } from "./until.mjs";
 
 let rig;
 let browser;
@@ -88,6 +89,37 @@ test("any layer has a link, and the keys lead from one to the next", async () =>
   await page.waitForURL(/#\/layers\/1(\D|$)/);
   await page.keyboard.press("End");
   await page.waitForURL(new RegExp(`#/layers/${rig.layers}(\\D|$)`));
+});
+
+test("the run's list leads to the very attempt that it names", async () => {
+  const { page } = tab;
+  await page.goto(`${rig.url}/#/run`);
+  await page
+    .getByRole("link", { name: /^Layer 4, attempt 1/ })
+    .first()
+    .click();
+  await page.locator('[data-role="attempt-image"][data-attempt="1"]').waitFor();
+  assert.match(page.url(), /#\/layers\/4\?attempt=1$/);
+});
+
+test("on a phone the pictures come into sight when an attempt below them is chosen", async () => {
+  const hand = await Tab.open(browser, { ...phone, deviceScaleFactor: 2 });
+  try {
+    const { page } = hand;
+    await hand.visit(rig.url, "#/layers/4");
+    await page.locator('button[data-attempt="1"]').waitFor();
+    await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+    const picture = page.locator('[data-role="attempt-image"][data-attempt="1"]');
+    await page.locator('button[data-attempt="1"]').dispatchEvent("click");
+    await picture.waitFor();
+    await until("a picture in sight", async () => {
+      const { y, height } = await picture.boundingBox();
+      return y >= 0 && y + height <= phone.viewport.height;
+    });
+    hand.assertNoFaults();
+  } finally {
+    await hand.close();
+  }
 });
 
 test("nothing failed and nothing was complained of", () => {

@@ -1,4 +1,5 @@
 import { useSignal, type Signal } from "@preact/signals";
+import type { RefObject } from "preact";
 import { useMemo, useRef } from "preact/hooks";
 
 import type { Attempt, LayerDetail, Sample } from "../api/types";
@@ -16,6 +17,7 @@ import { slugWords, verdictWords } from "../journal/verdict_words";
 import type { Point, Viewport } from "./viewport";
 
 interface Props {
+  panes: RefObject<HTMLDivElement>;
   layer: number;
   /** The layer has an image. */
   there: boolean;
@@ -77,7 +79,7 @@ export function LayerStage(props: Props) {
 
   return (
     <div class="stage">
-      <div class="stage-panes" data-panes={there && other ? 2 : 1}>
+      <div class="stage-panes" ref={props.panes} data-panes={there && other ? 2 : 1}>
         {there && (
           <PicturePane
             key="accepted"

@@ -6,6 +6,7 @@ import type { Attempt } from "../api/types";
 import { goTo, replaceHash, route } from "../shell/route";
 import { fixed } from "../ui/numbers";
 import { AttemptsPanel } from "./AttemptsPanel";
+import { bringIntoSight } from "./bring_into_sight";
 import { chosenAttempt } from "./chosen_attempt";
 import { FilmStrip, stripPitch } from "./FilmStrip";
 import { useLayerDetail } from "./layer_detail";
@@ -76,6 +77,7 @@ function Layers() {
   const chosen = chosenAttempt(answer.value, link.attempt, filter.value === "rejected");
   const screen = useRef<PictureScreen | null>(null);
   const stripExtent = useRef(0);
+  const panes = useRef<HTMLDivElement>(null);
   const known = sample.value;
 
   const choose = (number: number) =>
@@ -91,8 +93,19 @@ function Layers() {
     const shown = count > 0 ? at(nearest(layer)) : layer;
     if (shown !== layer) choose(shown);
   };
-  const chooseAttempt = (attempt: Attempt) =>
+  const showPanes = () => panes.current && bringIntoSight(panes.current);
+  const chooseAttempt = (attempt: Attempt) => {
     replaceHash(layerHash({ layer, attempt: attempt.attempt }, route.peek().query));
+    showPanes();
+  };
+
+  // On a phone what was chosen is shown a screen or two above.
+  const arrivedAt = useRef(link);
+  useEffect(() => {
+    const { layer, attempt } = arrivedAt.current;
+    arrivedAt.current = link;
+    if (layer !== link.layer || attempt !== link.attempt) showPanes();
+  }, [link.layer, link.attempt]);
 
   useLayerKeys({
     step,
@@ -114,6 +127,7 @@ function Layers() {
     <>
       {exists ? (
         <LayerStage
+          panes={panes}
           layer={layer}
           there={layer <= committed.value}
           neighbours={neighbours}
