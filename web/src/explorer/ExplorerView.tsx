@@ -6,6 +6,7 @@ import { CuboidView } from "./CuboidView";
 import { ExplorerState } from "./explorer_state";
 import { ExportDialog } from "./ExportDialog";
 import { ExportJobs } from "./export_jobs";
+import { defaultExport } from "./export_order";
 import { PlaneControls } from "./PlaneControls";
 import { PlayerBar } from "./PlayerBar";
 import { SectionControls } from "./SectionControls";
@@ -26,10 +27,14 @@ export function ExplorerView() {
   const player = useMemo(() => new SeriesPlayer(state), []);
   const exports = useMemo(() => new ExportJobs(), []);
   const exporting = useSignal(false);
+  const exportChoice = useSignal(defaultExport);
   useLink(state);
   useSample(state);
   useSection(state);
-  useEffect(() => exports.watch(), []);
+  useEffect(() => {
+    void exports.learn();
+    return exports.watch();
+  }, []);
   useEffect(() => () => player.close(), []);
   useSignalEffect(() => {
     // A series is of the plane it began from, drawn as it was chosen then.
@@ -48,7 +53,12 @@ export function ExplorerView() {
       <h1 class="visually-hidden">Explorer</h1>
       <CuboidView state={state} />
       <div class="section-column">
-        <SectionToolbar state={state} tools={tools} onExport={() => (exporting.value = true)} />
+        <SectionToolbar
+          state={state}
+          tools={tools}
+          exports={exports}
+          onExport={() => (exporting.value = true)}
+        />
         <SectionView state={state} tools={tools} />
         <SectionStatus state={state} tools={tools} />
         <PlayerBar player={player} />
@@ -66,6 +76,7 @@ export function ExplorerView() {
           state={state}
           player={player}
           exports={exports}
+          choice={exportChoice}
           onClose={() => (exporting.value = false)}
         />
       )}

@@ -1,4 +1,4 @@
-import { useSignal } from "@preact/signals";
+import { type Signal, useSignalEffect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 
 import { Button } from "../ui/Button";
@@ -6,9 +6,11 @@ import { Dialog } from "../ui/Dialog";
 import { ExportList } from "./ExportList";
 import type { ExplorerState } from "./explorer_state";
 import type { ExportFormat, ExportJobs } from "./export_jobs";
-import { type ExportChoice, defaultExport, orderOf } from "./export_order";
+import { type ExportChoice, orderOf } from "./export_order";
 import { leastSpacing } from "./geometry/cuboid";
 import { NumberField } from "./NumberField";
+import { onBack } from "./on_back";
+import { refusalWords } from "./refusal_words";
 import type { SeriesPlayer } from "./series_player";
 import { SeriesFields } from "./SeriesFields";
 import { useExportSize } from "./use_export_size";
@@ -17,6 +19,7 @@ interface Props {
   state: ExplorerState;
   player: SeriesPlayer;
   exports: ExportJobs;
+  choice: Signal<ExportChoice>;
   onClose: () => void;
 }
 
@@ -27,14 +30,19 @@ const formats: { format: ExportFormat; label: string }[] = [
 ];
 
 /** Has pictures written by the server, as files to be downloaded. */
-export function ExportDialog({ state, player, exports, onClose }: Props) {
-  const choice = useSignal(defaultExport);
+export function ExportDialog({ state, player, exports, choice, onClose }: Props) {
   const change = (changed: Partial<ExportChoice>) =>
     (choice.value = { ...choice.value, ...changed });
   const { kind, format, pixel, movie, frames, rate } = choice.value;
   const cuboid = state.cuboid.value;
   const size = useExportSize(state, player, choice);
-  useEffect(() => void exports.learn(), []);
+  useEffect(() => {
+    void exports.learn();
+    return onBack(() => void exports.learn());
+  }, []);
+  useSignalEffect(() => {
+    if (exports.news.value) exports.news.value = null; // it is seen
+  });
   const order = orderOf(state, player.choice.value, choice.value);
 
   return (
@@ -117,7 +125,11 @@ export function ExportDialog({ state, player, exports, onClose }: Props) {
         <p class="muted" aria-live="polite">
           {size}
         </p>
-        {exports.failure.value && <p class="notice notice-bad">{exports.failure.value}</p>}
+        {exports.failure.value && (
+          <p class="notice notice-bad" role="alert">
+            {refusalWords(exports.failure.value)}
+          </p>
+        )}
         <div class="button-row">
           <Button submit kind="primary" disabled={!order}>
             Export

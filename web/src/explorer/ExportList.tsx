@@ -1,8 +1,13 @@
+import { useSignal } from "@preact/signals";
+import { useLayoutEffect, useRef } from "preact/hooks";
+
 import { sentenceOf } from "../api/client";
 import { service } from "../api/live";
 import type { ExportJob } from "../api/types";
 import { Button } from "../ui/Button";
 import { bytes, fixed } from "../ui/numbers";
+import { timeText } from "../ui/time_text";
+import { askedBy } from "./command_words";
 import { CopyButton } from "./CopyButton";
 import { downloadWithToken, hasEnded } from "./export_jobs";
 import type { ExportJobs } from "./export_jobs";
@@ -14,13 +19,29 @@ interface Props {
 /** What is being written and what was, with what can be downloaded. */
 export function ExportList({ exports }: Props) {
   const jobs = exports.jobs.value;
-  if (jobs.length === 0) return null;
+  const heading = useRef<HTMLHeadingElement>(null);
+  const list = useRef<HTMLUListElement>(null);
+  const removed = useRef<{ id: ExportJob["id"]; place: number } | null>(null);
+  // The focus goes to what takes the place of a row that was removed.
+  useLayoutEffect(() => {
+    if (!removed.current || jobs.some(({ id }) => id === removed.current?.id)) return;
+    const next = list.current?.children[removed.current.place];
+    removed.current = null;
+    (next?.querySelector<HTMLElement>("a, button") ?? heading.current)?.focus();
+  }, [jobs]);
+  const remove = (job: ExportJob) => {
+    removed.current = { id: job.id, place: jobs.indexOf(job) };
+    void exports.remove(job);
+  };
   return (
     <section aria-labelledby="exports-title">
-      <h3 id="exports-title">Exports</h3>
-      <ul class="export-list">
+      <h3 id="exports-title" ref={heading} tabIndex={-1}>
+        Exports
+      </h3>
+      {jobs.length === 0 && <p class="muted">None yet.</p>}
+      <ul class="export-list" ref={list}>
         {jobs.map((job) => (
-          <ExportRow key={job.id} job={job} exports={exports} />
+          <ExportRow key={job.id} job={job} exports={exports} onRemove={() => remove(job)} />
         ))}
       </ul>
     </section>
@@ -35,7 +56,13 @@ function progressWords({ done, total, unit, seconds_left }: ExportJob): string {
   return [far, left].filter(Boolean).join(", ");
 }
 
-function ExportRow({ job, exports }: { job: ExportJob; exports: ExportJobs }) {
+interface RowProps {
+  job: ExportJob;
+  exports: ExportJobs;
+  onRemove: () => void;
+}
+
+function ExportRow({ job, exports, onRemove }: RowProps) {
   return (
     <li
       class="export"
@@ -45,9 +72,11 @@ function ExportRow({ job, exports }: { job: ExportJob; exports: ExportJobs }) {
       data-id={job.id}
     >
       <div class="export-words">
-        <strong>{kinds[job.kind]}</strong> {job.sentence || job.state}
+        <strong>{kinds[job.kind]}</strong> {timeText(job.created_at)}
+        {job.state !== "done" && <>: {job.sentence || job.state}</>}
         {!hasEnded(job) && <span class="muted"> {progressWords(job)}</span>}
       </div>
+      <code class="export-command">{askedBy(job.command)}</code>
       {!hasEnded(job) && (
         <progress
           max={Math.max(1, job.total)}
@@ -64,11 +93,27 @@ function ExportRow({ job, exports }: { job: ExportJob; exports: ExportJobs }) {
             Copy as command
           </CopyButton>
         )}
-        <Button onClick={() => void exports.remove(job)}>
-          {hasEnded(job) ? "Remove" : "Cancel"}
-        </Button>
+        {hasEnded(job) ? (
+          <RemoveButton onRemove={onRemove} />
+        ) : (
+          <Button onClick={() => void exports.remove(job)}>Cancel</Button>
+        )}
       </div>
     </li>
+  );
+}
+
+/** Its files can't be had back: a first press only asks. */
+function RemoveButton({ onRemove }: { onRemove: () => void }) {
+  const asked = useSignal(false);
+  return (
+    <Button
+      kind={asked.value ? "danger" : "plain"}
+      onClick={() => (asked.value ? onRemove() : (asked.value = true))}
+      onBlur={() => (asked.value = false)}
+    >
+      {asked.value ? "Remove for good" : "Remove"}
+    </Button>
   );
 }
 

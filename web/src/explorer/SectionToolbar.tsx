@@ -3,6 +3,8 @@ import { linkOf } from "../shell/explorer_link";
 import { Button } from "../ui/Button";
 import { CopyButton } from "./CopyButton";
 import type { ExplorerState } from "./explorer_state";
+import type { ExportJobs } from "./export_jobs";
+import { ExportButton } from "./ExportButton";
 import { leastSpacing } from "./geometry/cuboid";
 import { neuroglancerLink } from "./neuroglancer";
 import { fetchOutline } from "./section_fetch";
@@ -13,11 +15,12 @@ import { viewQuery } from "./view_hash";
 interface Props {
   state: ExplorerState;
   tools: SectionTools;
+  exports: ExportJobs;
   onExport: () => void;
 }
 
 /** What can be done with the section that is shown. */
-export function SectionToolbar({ state, tools, onExport }: Props) {
+export function SectionToolbar({ state, tools, exports, onExport }: Props) {
   const measuring = tools.tool.value === "measure";
   return (
     <div class="section-toolbar" role="toolbar" aria-label="Section">
@@ -50,9 +53,7 @@ export function SectionToolbar({ state, tools, onExport }: Props) {
           Copy as command
         </CopyButton>
         <NeuroglancerLink state={state} />
-        <Button kind="primary" onClick={onExport}>
-          Export…
-        </Button>
+        <ExportButton exports={exports} onClick={onExport} />
       </div>
     </div>
   );

@@ -1,9 +1,9 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 
-import { capital } from "../shell/capital";
 import type { ExplorerState } from "./explorer_state";
 import type { Vector3 } from "./geometry/vector3";
+import { refusalWords } from "./refusal_words";
 import { pressedOnSection, sectionKeys } from "./section_keys";
 import type { SectionTools } from "./section_tools";
 import { SectionOverlay } from "./SectionOverlay";
@@ -14,9 +14,6 @@ interface Props {
   state: ExplorerState;
   tools: SectionTools;
 }
-
-/** As a person writes what the tool says on a terminal. */
-const sentence = (text: string): string => capital(text).replace(/ um\b/g, "\u00a0µm");
 
 /** The section's picture, pixel for pixel of the screen where it is sharp. */
 export function SectionView({ state, tools }: Props) {
@@ -89,7 +86,7 @@ export function SectionView({ state, tools }: Props) {
       <SectionOverlay state={state} tools={tools} draft={draft} />
       {state.failure.value && (
         <p class="section-failure notice notice-warn" role="status">
-          {sentence(state.failure.value)}
+          {refusalWords(state.failure.value)}
         </p>
       )}
     </div>

@@ -1,4 +1,4 @@
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 
 import { deleteAt, getBlob, getJson, postJson, sentenceOf } from "../api/client";
 import { onExport, onGap } from "../api/live";
@@ -35,6 +35,9 @@ function further(job: ExportJob, known: ExportJob | undefined): ExportJob {
 export class ExportJobs {
   readonly jobs = signal<ExportJob[]>([]);
   readonly failure = signal("");
+  /** That ended last, until somebody has seen it. */
+  readonly news = signal<ExportJob | null>(null);
+  readonly underWay = computed(() => this.jobs.value.find(({ state }) => state === "running"));
   private readonly forgotten = new Set<ExportJob["id"]>();
 
   /** Returns what ends it. */
@@ -51,7 +54,7 @@ export class ExportJobs {
       // Of what was ordered or removed while it was on its way, the answer need not know.
       const ordered = this.jobs.value.filter(({ id }) => !before.has(id) && !told.has(id));
       const kept = exports.filter(({ id }) => !this.forgotten.has(id));
-      this.jobs.value = [...ordered, ...kept.map((job) => further(job, this.known(job.id)))];
+      this.put([...ordered, ...kept.map((job) => further(job, this.known(job.id)))]);
     });
   }
 
@@ -70,9 +73,20 @@ export class ExportJobs {
   }
 
   private take(job: ExportJob): void {
-    this.jobs.value = this.known(job.id)
-      ? this.jobs.value.map((old) => (old.id === job.id ? further(job, old) : old))
-      : [job, ...this.jobs.value];
+    this.put(
+      this.known(job.id)
+        ? this.jobs.value.map((old) => (old.id === job.id ? further(job, old) : old))
+        : [job, ...this.jobs.value],
+    );
+  }
+
+  private put(jobs: ExportJob[]): void {
+    for (const job of jobs) {
+      const before = this.known(job.id);
+      const ends = before && !hasEnded(before) && hasEnded(job);
+      if (ends && job.state !== "cancelled") this.news.value = job;
+    }
+    this.jobs.value = jobs;
   }
 
   private known(id: ExportJob["id"]): ExportJob | undefined {

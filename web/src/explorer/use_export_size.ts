@@ -1,9 +1,12 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 
 import { getJson, isAbort, sentenceOf } from "../api/client";
 import { bytes, fixed } from "../ui/numbers";
 import type { ExplorerState } from "./explorer_state";
 import { type ExportChoice, pixelQuery } from "./export_order";
+import { onBack } from "./on_back";
+import { refusalWords } from "./refusal_words";
 import { fetchOutline } from "./section_fetch";
 import { queryText } from "./section_query";
 import { seriesQuery } from "./series_choice";
@@ -20,7 +23,10 @@ export function useExportSize(
   choice: { readonly value: ExportChoice },
 ): string {
   const words = useSignal("");
+  const returns = useSignal(0); // of the connection: what could not be asked can be now
+  useEffect(() => onBack(() => (returns.value += 1)), []);
   useSignalEffect(() => {
+    void returns.value;
     const chosen = choice.value;
     const abort = new AbortController();
     const query = state.shownQuery.value;
@@ -43,7 +49,7 @@ export function useExportSize(
         );
         words.value = `${fixed(frames.length)} pictures; the section shown now would have ${pixels}.`;
       } catch (error) {
-        if (!isAbort(error)) words.value = sentenceOf(error);
+        if (!isAbort(error)) words.value = refusalWords(sentenceOf(error));
       }
     };
     const timer = setTimeout(() => void ask(), rest_ms);

@@ -2,9 +2,9 @@ import { effect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 
 import { isAbort, sentenceOf } from "../api/client";
-import { connection } from "../api/live";
 import { persistently } from "../api/retry_wait";
 import type { ExplorerState } from "./explorer_state";
+import { onBack } from "./on_back";
 import { rectangleOf } from "./section_record";
 import { fetchOutline, fetchPicture, busyWait_ms } from "./section_fetch";
 import { SectionLoader } from "./section_loader";
@@ -51,19 +51,6 @@ const withoutGeneration = (address: string): string => address.replace(/&generat
 
 const sameButGrown = (before: Wish, after: Wish): boolean =>
   withoutGeneration(before.sharp.address) === withoutGeneration(after.sharp.address);
-
-/** Calls when the connection is back after it was lost or given up. */
-function onBack(call: () => void): () => void {
-  let away = false;
-  return effect(() => {
-    const { state } = connection.value;
-    if (state === "lost" || state === "resting") away = true;
-    else if (state === "live" && away) {
-      away = false;
-      call();
-    }
-  });
-}
 
 const outlineRest_ms = 80;
 const usualWait_ms = 1000;

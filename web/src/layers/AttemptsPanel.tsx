@@ -3,7 +3,7 @@ import { capital } from "../shell/capital";
 import { bytes, fixed, micrometres, withUnit } from "../ui/numbers";
 import { MetricTable } from "./MetricTable";
 import { depthText } from "./sample_place";
-import { timeText } from "./time_text";
+import { timeText } from "../ui/time_text";
 import { slugWords, verdictWords } from "../journal/verdict_words";
 
 interface Props {

@@ -7,7 +7,7 @@ import { Button } from "../ui/Button";
 import { fixed } from "../ui/numbers";
 import { layerHash } from "./layer_link";
 import { useThumbnails } from "./thumbnails";
-import { timeText } from "./time_text";
+import { timeText } from "../ui/time_text";
 import { isRejected, slugWords } from "../journal/verdict_words";
 
 const pageLength = 50;

@@ -82,4 +82,21 @@ describe("exports", () => {
     expect(exports.jobs.value[0].state).toBe("cancelled");
     stop();
   });
+
+  it("are told of when they end, until somebody has seen it", () => {
+    const exports = new ExportJobs();
+    const stop = exports.watch();
+    tell(job("done", 9)); // it had ended before
+    expect(exports.news.value).toBeNull();
+    tell({ ...job("running", 4), id: "b" });
+    expect(exports.underWay.value?.id).toBe("b");
+    tell({ ...job("done", 9), id: "b" });
+    expect(exports.underWay.value).toBeUndefined();
+    expect(exports.news.value?.id).toBe("b");
+    exports.news.value = null;
+    tell({ ...job("running", 4), id: "c" });
+    tell({ ...job("cancelled", 4), id: "c" });
+    expect(exports.news.value).toBeNull();
+    stop();
+  });
 });

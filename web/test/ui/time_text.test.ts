@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import { timeText } from "../../src/layers/time_text";
+import { timeText } from "../../src/ui/time_text";
 
 const now = new Date(2026, 10, 27, 18, 0);
 
