@@ -141,7 +141,7 @@ test("a distance is measured in micrometres", async () => {
   // Where it was clicked, by the picture's own matrix.
   const pixel = await page.evaluate(
     async (command) => {
-      const word = (name) => new RegExp(`--${name}=(\\S+)`).exec(command)?.[1];
+      const word = (name) => new RegExp(`--${name}=('[^']*'|\\S+)`).exec(command)?.[1];
       const query = new URLSearchParams();
       for (const name of ["points", "normal", "through", "pixel", "theta", "basis"]) {
         const value = word(name);

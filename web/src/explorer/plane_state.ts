@@ -127,10 +127,17 @@ export function withThrough({ definition, plane }: PlacedPlane, through: Vector3
   return { kind: "normal", normal, through };
 }
 
-/** Moved along its normal, as far as it still cuts the block. */
+/** Moved along its normal, as far as it still cuts the block; three points move with it. */
 export function withOffset(placed: PlacedPlane, offset: number, cuboid: Cuboid): PlaneDefinition {
   const { normal } = placed.plane;
-  const moved = rounded(within(offset, placed.offsets), decimalsOfMicrometres);
+  const asked = within(offset, placed.offsets);
+  if (placed.definition.kind === "points") {
+    const points = placed.points.map((point) =>
+      tidy(along(point, asked - placed.offset, normal)),
+    ) as unknown as ThreePoints;
+    if (points.every((point) => isNear(point, cuboid))) return { kind: "points", points };
+  }
+  const moved = rounded(asked, decimalsOfMicrometres);
   // Turning it later about the middle of what it cuts never takes it off the block.
   const polygon = sectionPolygon({ normal, offset: -moved }, cuboid);
   const from = polygon.length >= 3 ? centroid(polygon) : placed.through;
@@ -146,6 +153,15 @@ export function tidied({ plane, polygon, through, offset }: PlacedPlane): PlaneD
     normal: tidy(plane.normal, decimalsOfDirections),
     through: [x, y, isAlongLayers(plane) ? offset : z],
   };
+}
+
+const spare = 0.1; // of the block: points on its faces, too, may be moved off them
+
+/** In the block, or no farther beside it than one can take hold of. */
+function isNear(point: Vector3, cuboid: Cuboid): boolean {
+  const far = extent(cuboid);
+  const room = spare * Math.max(...far);
+  return point.every((value, i) => value >= -room && value <= far[i] + room);
 }
 
 /** By so many rows of voxels along its normal; a plane along the layers goes from layer to layer. */

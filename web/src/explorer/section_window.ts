@@ -64,8 +64,9 @@ export const sampleAtPixel = (window: SectionWindow, x: number, y: number): Vect
 const mostEnlarged = 24;
 
 /**
- * Nearer by `factor`; what is seen at pixel (x, y) stays there. None when that is far enough away
- * to see all of it. `voxel`: the least spacing.
+ * Nearer by `factor`; what is seen at pixel (x, y) stays there. None where all of it just fits. A
+ * section with fewer voxels than the window has pixels may be shown smaller, down to a voxel a pixel,
+ * in the middle. `voxel`: the least spacing.
  */
 export function zoomedAt(
   window: SectionWindow,
@@ -73,12 +74,17 @@ export function zoomedAt(
   [x, y]: readonly [number, number],
   voxel: number,
 ): Closeup | null {
-  const coarsest = evenPixel(fittingPixel(window.frame, window.width, window.height), voxel);
-  const pixel = readablePixel(Math.max(voxel / mostEnlarged, window.pixel / factor));
-  if (pixel >= coarsest) return null;
+  const { frame, width, height } = window;
+  const fitting = evenPixel(fittingPixel(frame, width, height), voxel);
+  const finest = Math.max(voxel / mostEnlarged, window.pixel / factor);
+  const pixel = readablePixel(Math.min(finest, Math.max(voxel, fitting)));
+  if (Math.abs(pixel / fitting - 1) < 0.001) return null;
   const [a, b] = placeAt(window, x, y);
-  const middle: InPlane = [a - (x - window.width / 2) * pixel, b - (y - window.height / 2) * pixel];
-  return { middle: inSample(window.frame, withinFrame(window.frame, middle)), pixel };
+  const middle: InPlane =
+    pixel > fitting
+      ? [frame.width / 2, frame.height / 2]
+      : [a - (x - width / 2) * pixel, b - (y - height / 2) * pixel];
+  return { middle: inSample(frame, withinFrame(frame, middle)), pixel };
 }
 
 /** Moved by so many pixels of the screen; its middle stays on the frame. */

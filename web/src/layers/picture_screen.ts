@@ -5,6 +5,7 @@ import { bitmapLoader, type PictureSource } from "./picture_source";
 import {
   fitted,
   held,
+  isAllInSight,
   isFitted,
   seen,
   toPicture,
@@ -101,7 +102,8 @@ export class PictureScreen {
   }
 
   allInSight(): boolean {
-    return this.viewport.peek() === null;
+    const now = this.now();
+    return now !== null && isAllInSight(now.view, this.picture!.shape, now.frame);
   }
 
   private now(): Shown | null {
@@ -151,13 +153,14 @@ export class PictureScreen {
       source.pieces(sight, scale, this.loader),
       picture.overlay,
     );
+    const allInSight = isAllInSight(now.view, shape, now.frame);
     const whole = source.whole(this.loader);
-    if (whole && !isFitted(now.view, shape, now.frame)) paintMinimap(screen, shape, sight, whole);
+    if (whole && !allInSight) paintMinimap(screen, shape, sight, whole);
 
     const missing = needed.filter((address) => !this.loader.picture(address));
     const failure = missing.map((address) => this.loader.failure(address)).find(Boolean);
     canvas.dataset.state = failure ? "failed" : missing.length > 0 ? "loading" : this.complete;
-    canvas.style.touchAction = isFitted(now.view, shape, now.frame) ? "pan-y" : "none";
+    canvas.style.touchAction = allInSight ? "pan-y" : "none";
     this.trouble.value = failure?.message ?? "";
     this.shown.value = now;
   }

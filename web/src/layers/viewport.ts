@@ -43,8 +43,16 @@ function fittedScale(shape: Shape, frame: Frame): number {
   return scale > 0 ? scale : 1;
 }
 
+const rounding = 0.001; // of a scale
+
+/** As large as the frame takes the whole picture. */
 export function isFitted(view: Viewport, shape: Shape, frame: Frame): boolean {
-  return view.scale <= fittedScale(shape, frame) * 1.001;
+  return Math.abs(view.scale / fittedScale(shape, frame) - 1) <= rounding;
+}
+
+/** Likewise, or smaller. */
+export function isAllInSight(view: Viewport, shape: Shape, frame: Frame): boolean {
+  return view.scale <= fittedScale(shape, frame) * (1 + rounding);
 }
 
 /**
@@ -137,7 +145,7 @@ export function tapped(
   frame: Frame,
   pixelRatio: number,
 ): Viewport {
-  if (!isFitted(view, shape, frame)) return fitted(shape, frame);
+  if (!isAllInSight(view, shape, frame)) return fitted(shape, frame);
   const factor = Math.max(1 / pixelRatio / view.scale, 3);
   return zoomed(view, factor, at, shape, frame, pixelRatio);
 }

@@ -9,6 +9,7 @@ import {
   diagonal,
   nudged,
   placePlane,
+  stepAlong,
   tidied,
   withAngles,
   withNormal,
@@ -69,6 +70,28 @@ describe("moving a plane", () => {
     const moved = placed(withOffset(slanted, slanted.offset + 250, knee));
     expect(moved.offset).toBeCloseTo(slanted.offset + 250, 1);
     expect(moved.angles.tilt).toBeCloseTo(30, 3);
+  });
+
+  it("by its offset takes its three points along, there and back to the same plane", () => {
+    for (const points of [diagonal(knee, 1580), withPoint(slanted, 0, [10.1234, 20.5678, 300.9])]) {
+      const first = placed(points);
+      const there = placed(nudged(first, 7, knee));
+      expect(there.definition.kind).toBe("points");
+      expect(there.offset).toBeCloseTo(first.offset + 7 * stepAlong(first.plane.normal, knee), 2);
+      expect(nudged(there, -7, knee)).toEqual(points);
+    }
+  });
+
+  it("leaves points behind that would be far from the block", () => {
+    const steep = placed({
+      kind: "points",
+      points: [
+        [0, 0, 0],
+        [9990, 0, 0],
+        [0, 9990, 1580],
+      ],
+    });
+    expect(withOffset(steep, steep.offset + 1500, knee).kind).toBe("normal");
   });
 
   it("never takes it off the block", () => {

@@ -61,6 +61,17 @@ describe("the window on a section", () => {
     expect(zoomedAt(whole, 1.05, [70, 70], 10)!.pixel).toBeCloseTo(9.5238, 9);
   });
 
+  it("shows a small section by a pixel a voxel, in the middle, and no smaller", () => {
+    const small: PlaneRectangle = { ...frame, width: 990, height: 990 };
+    const whole = wholeWindow(small, 400, 400, evenPixel(fittingPixel(small, 400, 400), 10));
+    expect(whole.pixel).toBeLessThan(3);
+    const plain = { middle: [495, 495, 100], pixel: 10 };
+    expect(zoomedAt(whole, whole.pixel / 10, [10, 300], 10)).toEqual(plain);
+    expect(zoomedAt(whole, 1e-6, [10, 300], 10)).toEqual(plain);
+    const window = closeupWindow(small, 400, 400, zoomedAt(whole, 1e-6, [0, 0], 10)!);
+    expect(zoomedAt(window, 10 / whole.pixel, [0, 0], 10)).toBeNull();
+  });
+
   it("is moved no further than to the frame's edge", () => {
     expect(movedBy(closeup, 1e6, -1e6).middle).toEqual([9990, 0, 100]);
   });

@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import {
   fitted,
   held,
+  isAllInSight,
   isFitted,
   moved,
   seen,
@@ -20,6 +21,16 @@ describe("a fitted view", () => {
     const view = fitted(shape, frame);
     expect(view).toEqual({ x: 5000, y: 2500, scale: 0.1 });
     expect(isFitted(view, shape, frame)).toBe(true);
+    expect(isAllInSight(view, shape, frame)).toBe(true);
+  });
+
+  it("is not taken for a smaller one, nor for a larger one", () => {
+    const smaller = { ...fitted(shape, frame), scale: 0.09 };
+    expect(isFitted(smaller, shape, frame)).toBe(false);
+    expect(isAllInSight(smaller, shape, frame)).toBe(true);
+    const larger = { ...smaller, scale: 0.11 };
+    expect(isFitted(larger, shape, frame)).toBe(false);
+    expect(isAllInSight(larger, shape, frame)).toBe(false);
   });
 
   it("is bounded by the height where that is the tighter side", () => {
