@@ -19,7 +19,7 @@ export function PlayerBar({ player }: Props) {
       {player.playing.value ? (
         <Button onClick={() => player.pause()}>Pause</Button>
       ) : (
-        <Button onClick={() => void player.play()}>Play</Button>
+        <Button onClick={() => void player.play()}>Play series</Button>
       )}
       {open && (
         <>

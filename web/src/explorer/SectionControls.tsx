@@ -19,6 +19,7 @@ export function SectionControls({ state, tools }: Props) {
   const { basis, theta, interpolation, background } = state.choices.value;
   const edges = state.placed.value?.polygon.length ?? 0;
   const rectangle = state.rectangle.value;
+  const drawing = tools.tool.value === "rectangle";
   return (
     <section class="panel explorer-panel" aria-labelledby="picture-title">
       <h2 id="picture-title">Picture</h2>
@@ -47,7 +48,9 @@ export function SectionControls({ state, tools }: Props) {
         </Switch>
       )}
       {theta.kind === "custom" && (
-        <Button onClick={() => tools.take("rectangle")}>Draw it anew</Button>
+        <Button aria-pressed={drawing} onClick={() => tools.take(drawing ? "look" : "rectangle")}>
+          Draw it anew
+        </Button>
       )}
       <Field label="Rows of the picture">
         <select

@@ -5,6 +5,7 @@ import type { ExplorerState } from "./explorer_state";
 import { cornersOf, inPlane } from "./geometry/plane_rectangle";
 import { norm, subtract } from "./geometry/vector3";
 import type { Vector3 } from "./geometry/vector3";
+import { crossOf } from "./measure_cross";
 import type { SectionTools } from "./section_tools";
 import { pixelAt } from "./section_window";
 import type { SectionWindow } from "./section_window";
@@ -61,6 +62,7 @@ export function SectionOverlay({ state, tools, draft }: OverlayProps) {
       )}
       {draft.value && <DraftRectangle ends={draft.value.map(at) as [Place, Place]} />}
       {measured && <Distance from={measured.from} to={measured.to} at={at} />}
+      {tools.tool.value === "measure" && <Cross at={crossOf(state, tools)} />}
       <ScaleBar window={window} ratio={ratio} />
     </svg>
   );
@@ -128,6 +130,17 @@ function Distance({ from, to, at }: { from: Vector3; to: Vector3 | null; at: At 
       <text class="over-picture" x={(x1 + x2) / 2} y={(y1 + y2) / 2 - 8}>
         {lengthWords(norm(subtract(to, from)))}
       </text>
+    </g>
+  );
+}
+
+/** Where Enter measures. */
+function Cross({ at: [x, y] }: { at: readonly [number, number] }) {
+  const path = `M${x - 12} ${y}h24M${x} ${y - 12}v24`;
+  return (
+    <g>
+      <path class="measure-casing" d={path} />
+      <path class="measure-line" d={path} />
     </g>
   );
 }

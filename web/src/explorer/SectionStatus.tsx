@@ -17,7 +17,14 @@ export function SectionStatus({ state, tools }: Props) {
   return (
     <div class="section-status">
       <span data-role="cursor">{placeWords(state, tools)}</span>
-      {tools.tool.value === "measure" && <span data-role="distance">{measureWords(tools)}</span>}
+      {tools.tool.value === "measure" && (
+        <span data-role="distance" role="status">
+          {measureWords(tools)}
+        </span>
+      )}
+      {tools.tool.value === "rectangle" && (
+        <span role="status">Drag from one corner to the other.</span>
+      )}
       {record && (
         <span class="muted">
           {sharp ? "Sharp" : "Preview"}, {lengthWords(record.pixel_um)} per pixel
@@ -45,7 +52,8 @@ function placeWords(state: ExplorerState, tools: SectionTools): string {
 
 function measureWords(tools: SectionTools): string {
   const measured = tools.measured.value;
-  if (!measured) return "Press on the first place.";
-  if (!measured.to) return "Press on the second place.";
+  const how = "or go there by the arrow keys and press Enter.";
+  if (!measured) return `Press on the first place, ${how}`;
+  if (!measured.to) return `Press on the second place, ${how}`;
   return `Distance: ${fixed(norm(subtract(measured.to, measured.from)), 1)} µm`;
 }

@@ -5,11 +5,10 @@ import { CopyButton } from "./CopyButton";
 import type { ExplorerState } from "./explorer_state";
 import type { ExportJobs } from "./export_jobs";
 import { ExportButton } from "./ExportButton";
-import { leastSpacing } from "./geometry/cuboid";
 import { neuroglancerLink } from "./neuroglancer";
 import { fetchOutline } from "./section_fetch";
 import type { SectionTools } from "./section_tools";
-import { zoomAbout } from "./section_zoom";
+import { noZoom, toFullResolution, zoomAbout } from "./section_zoom";
 import { viewQuery } from "./view_hash";
 
 interface Props {
@@ -22,6 +21,7 @@ interface Props {
 /** What can be done with the section that is shown. */
 export function SectionToolbar({ state, tools, exports, onExport }: Props) {
   const measuring = tools.tool.value === "measure";
+  const inSeries = state.frame.value !== null;
   return (
     <div class="section-toolbar" role="toolbar" aria-label="Section">
       <div class="tool-group">
@@ -32,13 +32,27 @@ export function SectionToolbar({ state, tools, exports, onExport }: Props) {
         >
           All
         </Button>
-        <Button onClick={() => zoomAbout(state, 1 / 1.5)} aria-label="Smaller">
+        <Button
+          aria-label="Smaller"
+          disabled={inSeries}
+          title={inSeries ? noZoom : undefined}
+          onClick={() => zoomAbout(state, 1 / 1.5)}
+        >
           −
         </Button>
-        <Button onClick={() => zoomAbout(state, 1.5)} aria-label="Larger">
+        <Button
+          aria-label="Larger"
+          disabled={inSeries}
+          title={inSeries ? noZoom : undefined}
+          onClick={() => zoomAbout(state, 1.5)}
+        >
           +
         </Button>
-        <Button onClick={() => toFullResolution(state)} title="One voxel, one pixel">
+        <Button
+          disabled={inSeries}
+          title={inSeries ? noZoom : "One voxel, one pixel"}
+          onClick={() => toFullResolution(state)}
+        >
           1:1
         </Button>
         <Button aria-pressed={measuring} onClick={() => tools.take(measuring ? "look" : "measure")}>
@@ -57,12 +71,6 @@ export function SectionToolbar({ state, tools, exports, onExport }: Props) {
       </div>
     </div>
   );
-}
-
-function toFullResolution(state: ExplorerState): void {
-  const window = state.window.value;
-  const cuboid = state.cuboid.value;
-  if (window && cuboid) zoomAbout(state, window.pixel / leastSpacing(cuboid));
 }
 
 const linkTo = (state: ExplorerState): string =>

@@ -72,6 +72,7 @@ export class SeriesPlayer {
     batch(() => {
       this.playing.value = false;
       this.waiting.value = false;
+      this.failure.value = "";
       this.frames.value = [];
       this.index.value = 0;
       this.state.frame.value = null;
@@ -100,7 +101,6 @@ export class SeriesPlayer {
     const name = JSON.stringify([query, choices, this.state.generation.value]);
     if (name === this.loaded && this.frames.value.length > 0) return true;
     this.close();
-    this.failure.value = "";
     const { signal } = (this.loading = new AbortController());
     try {
       const { frames } = await getJson<{ frames: SeriesFrame[] }>(

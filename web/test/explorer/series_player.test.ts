@@ -108,6 +108,8 @@ describe("a series that plays", () => {
     await player.play();
     expect(player.failure.value).toBe("the step leads nowhere");
     expect(player.playing.value).toBe(false);
+    player.close();
+    expect(player.failure.value).toBe("");
   });
 
   it("stops at a frame that can't be had and says why, and tries it again when asked", async () => {
