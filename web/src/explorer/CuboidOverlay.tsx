@@ -10,7 +10,10 @@ import { projected } from "./orbit_camera";
 import type { Projection } from "./orbit_camera";
 import { svgPoints } from "./svg_points";
 
-const labelRoom = 38; // beside the middle of a label, CSS pixels
+const labelRoom = [46, 10] as const; // beside and above the middle of a label, CSS pixels
+
+const within = (value: number, room: number, length: number): number =>
+  Math.min(length - room, Math.max(room, value));
 
 interface Props {
   state: ExplorerState;
@@ -45,11 +48,11 @@ export function CuboidOverlay({ state, projection, handles, held }: Props) {
           ])}
         />
       )}
-      {axisLabels(far, at).map(({ axis, x, y }) => (
+      {axisLabels(far, at, handles.value).map(({ axis, x, y }) => (
         <text
           key={axis}
-          x={Math.min(view.width - labelRoom, Math.max(labelRoom, x))}
-          y={y}
+          x={within(x, labelRoom[0], view.width)}
+          y={within(y, labelRoom[1], view.height)}
           class="axis-label"
         >
           {"xyz"[axis]} {fixed(far[axis] / 1000, 2)} mm

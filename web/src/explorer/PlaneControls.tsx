@@ -30,6 +30,7 @@ export function PlaneControls({ state }: Props) {
   const { normal } = placed.plane;
   const [least, most] = placed.offsets;
   const along = isAlongLayers(placed.plane);
+  const grows = state.layersPresent.value < cuboid.size[2];
   const layer = layerAt(cuboid, along ? placed.offset : placed.through[2]);
   return (
     <section class="panel explorer-panel" aria-labelledby="plane-title">
@@ -53,12 +54,14 @@ export function PlaneControls({ state }: Props) {
           unit={`of ${cuboid.size[2]}`}
           onChange={(typed) => toLayer(state, typed)}
         />
-        <Switch
-          checked={state.follow.value}
-          onChange={(on) => (on ? state.toNewest() : (state.follow.value = false))}
-        >
-          Newest face
-        </Switch>
+        {(grows || state.follow.value) && (
+          <Switch
+            checked={state.follow.value}
+            onChange={(on) => (on ? state.toNewest() : (state.follow.value = false))}
+          >
+            Newest face
+          </Switch>
+        )}
       </div>
       <SliderField
         label="Tilt"

@@ -86,17 +86,29 @@ export function texturedPolygon({
 }
 
 const roomForLabel = 60; // along an edge, pixels
+/** Of the middles of two labels, or of a label and a handle: nearer ones overlap, pixels. */
+const besideLabel = [60, 16] as const;
+const besideHandle = [39, 17] as const;
+const push = 20; // pixels
+const mostPushes = 4;
+
+type Place = readonly [number, number];
+
+const overlaps = (x: number, y: number, [ox, oy]: Place, [width, height]: Place): boolean =>
+  Math.abs(x - ox) < width && Math.abs(y - oy) < height;
 
 /**
  * A label outside the middle of the lowest of the edges that an axis has on the screen; below the
- * end of one that is too short for it.
+ * end of one that is too short for it. It makes way outwards for handles and for other labels.
  */
 export function axisLabels(
   far: Vector3,
-  project: (point: Vector3) => readonly [number, number],
+  project: (point: Vector3) => Place,
+  handles: readonly Place[] = [],
 ): { axis: 0 | 1 | 2; x: number; y: number }[] {
   const points = corners({ size: [2, 2, 2], spacing: far });
   const [middleX, middleY] = project([far[0] / 2, far[1] / 2, far[2] / 2]);
+  const taken: Place[] = [];
   return ([0, 1, 2] as const).map((axis) => {
     const bit = 1 << axis;
     const places = edges
@@ -113,10 +125,16 @@ export function axisLabels(
       Math.hypot(x - middleX, y - middleY) + 0.6 * (y - middleY) + 0.2 * (x - middleX);
     const best = places.reduce((a, b) => (outward(b) > outward(a) + 1e-6 ? b : a));
     const away = Math.hypot(best.x - middleX, best.y - middleY) || 1;
-    return {
-      axis,
-      x: best.x + (22 * (best.x - middleX)) / away,
-      y: best.y + (18 * (best.y - middleY)) / away,
-    };
+    const [right, down] = [(best.x - middleX) / away, (best.y - middleY) / away];
+    let [x, y] = [best.x + 22 * right, best.y + 18 * down];
+    const isTaken = () =>
+      handles.some((place) => overlaps(x, y, place, besideHandle)) ||
+      taken.some((place) => overlaps(x, y, place, besideLabel));
+    for (let pushes = 0; pushes < mostPushes && isTaken(); pushes += 1) {
+      x += push * right;
+      y += push * down;
+    }
+    taken.push([x, y]);
+    return { axis, x, y };
   });
 }

@@ -94,6 +94,7 @@ export function FilmStrip(props: Props) {
       onScroll={(event) => setScroll(event.currentTarget.scrollLeft)}
     >
       <div class="film-length" role="presentation" style={{ width: `${length(list)}px` }}>
+        {sequence.count === 0 && <p class="film-none muted">None</p>}
         {layers.map((layer, index) => (
           <FilmFrame
             key={layer}

@@ -1,4 +1,5 @@
 import type { Metric } from "../api/types";
+import { dash } from "../ui/numbers";
 import { Table } from "../ui/Table";
 import { limitText, metricOrder, metricWords, valueText } from "../journal/metric_words";
 
@@ -19,7 +20,13 @@ export function MetricTable({ metrics }: { metrics: readonly Metric[] }) {
           <span title={metric.name}>{words.title}</span>,
           <span class={metric.passed ? undefined : "bad"}>{valueText(metric.value, words)}</span>,
           limitText(metric.limit, words),
-          metric.passed ? <span class="good">yes</span> : <strong class="bad">no</strong>,
+          words.bound === "none" ? (
+            dash
+          ) : metric.passed ? (
+            <span class="good">yes</span>
+          ) : (
+            <strong class="bad">no</strong>
+          ),
         ];
       })}
     />

@@ -2,7 +2,7 @@ import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 
-import { percent } from "../ui/numbers";
+import { percent, significant } from "../ui/numbers";
 import { controlPicture } from "./picture_controls";
 import { PictureScreen, type ShownPicture } from "./picture_screen";
 import { scaleBar } from "./scale_bar";
@@ -85,11 +85,13 @@ function Scale({ screen, pixel }: { screen: PictureScreen; pixel: PixelSize }) {
   const shown = screen.shown.value;
   if (!shown) return null;
   const bar = scaleBar(pixel.x / shown.view.scale, widestBar);
+  const copy = shown.reduced > 1.01 ? `small copy, 1 : ${significant(shown.reduced, 2)}` : "";
   return (
     <div class="pane-scale">
       <div class="pane-bar" style={{ width: `${bar.width}px` }} />
       <span>
         {bar.text} · {percent(shown.view.scale * shown.ratio * 100)}
+        {copy && ` · ${copy}`}
       </span>
     </div>
   );

@@ -30,6 +30,8 @@ export interface Shown {
   readonly frame: Frame;
   /** Pixels of the device per CSS pixel. */
   readonly ratio: number;
+  /** Pixels of the full picture per pixel of what is kept of it. */
+  readonly reduced: number;
 }
 
 /**
@@ -106,7 +108,7 @@ export class PictureScreen {
     return now !== null && isAllInSight(now.view, this.picture!.shape, now.frame);
   }
 
-  private now(): Shown | null {
+  private now(): Omit<Shown, "reduced"> | null {
     if (!this.picture || this.frame.width === 0 || this.frame.height === 0) return null;
     const { shape } = this.picture;
     const ratio = this.pixels.width / this.frame.width;
@@ -162,7 +164,7 @@ export class PictureScreen {
     canvas.dataset.state = failure ? "failed" : missing.length > 0 ? "loading" : this.complete;
     canvas.style.touchAction = allInSight ? "pan-y" : "none";
     this.trouble.value = failure?.message ?? "";
-    this.shown.value = now;
+    this.shown.value = { ...now, reduced: source.reduction(this.loader) };
   }
 }
 

@@ -27,6 +27,8 @@ export interface PictureSource {
   pieces(seen: Rectangle, scale: number, loader: BitmapLoader): Piece[];
   /** The whole picture, small, if it is there. */
   whole(loader: BitmapLoader): Piece | null;
+  /** Pixels of the full picture per pixel of a small copy; 1 where more is kept, or nothing is here. */
+  reduction(loader: BitmapLoader): number;
 }
 
 export type BitmapLoader = PictureLoader<ImageBitmap>;
@@ -85,6 +87,10 @@ export class TiledLayer implements PictureSource {
     return this.piece(tile, loader)[0] ?? null;
   }
 
+  reduction(): number {
+    return 1;
+  }
+
   private piece(tile: Tile, loader: BitmapLoader): Piece[] {
     const bitmap = loader.picture(this.address(tile));
     if (!bitmap) return [];
@@ -126,5 +132,9 @@ export class WholePicture implements PictureSource {
     const { width, height } = this.size;
     const covers = { left: 0, top: 0, right: width, bottom: height };
     return { bitmap, covers, reduced: width / bitmap.width };
+  }
+
+  reduction(loader: BitmapLoader): number {
+    return this.whole(loader)?.reduced ?? 1;
   }
 }

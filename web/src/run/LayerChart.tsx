@@ -1,3 +1,4 @@
+import { signal } from "@preact/signals";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
@@ -25,11 +26,17 @@ interface Props {
 
 const manyRejected = 60; // from there on they are drawn small
 
+/** All charts show the same layers: who zooms in one zooms in all. */
+const zoomed = signal(false);
+const setZoomed = (to: boolean): void => {
+  zoomed.value = to;
+};
+
 /** A value over layers, with its limit; rejected attempts stand out and lead to their layer. */
 export function LayerChart({ name, title, about, bound, text, tick }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  const [zoomed, setZoomed] = useState(false);
+  const isZoomed = zoomed.value;
   const [row, setRow] = useState<number | null>(null);
   const dark = isDark.value; // its colours are the page's when it is made
   const many = history.rejectedCount > manyRejected;
@@ -45,6 +52,7 @@ export function LayerChart({ name, title, about, bound, text, tick }: Props) {
       element,
     );
     plot.current = made;
+    setZoomed(false); // all are made anew at once
     const size = new ResizeObserver(() => {
       made.setSize({ width: element.clientWidth, height: chartHeight_px });
     });
@@ -60,9 +68,9 @@ export function LayerChart({ name, title, about, bound, text, tick }: Props) {
     const made = plot.current;
     if (!made) return;
     // Where somebody has zoomed in, new layers must not zoom out again.
-    made.setData(data as uPlot.AlignedData, !zoomed);
-    if (zoomed) made.redraw();
-  }, [data, zoomed]);
+    made.setData(data as uPlot.AlignedData, !isZoomed);
+    if (isZoomed) made.redraw();
+  }, [data, isZoomed]);
 
   const { value, limit: limits } = history.column(name);
   const rejected = history.rejectedCount;
@@ -77,7 +85,7 @@ export function LayerChart({ name, title, about, bound, text, tick }: Props) {
       <figcaption class="chart-head">
         <h3>{title}</h3>
         <span class="muted chart-about">{about}</span>
-        {zoomed && (
+        {isZoomed && (
           <Button kind="quiet" class="chart-whole" onClick={() => setZoomed(false)}>
             Show all layers
           </Button>

@@ -49,7 +49,7 @@ function Asked({ command }: { command: Command }) {
     );
   }
   return (
-    <Dialog title={command.label} onClose={close}>
+    <Dialog title={command.label} onClose={close} withoutNotice={command.name === "acknowledge"}>
       <form
         onSubmit={(event) => {
           event.preventDefault();

@@ -2,7 +2,9 @@ import { useEffect } from "preact/hooks";
 
 import { connection, service } from "../api/live";
 import { RunView } from "../run/RunView";
+import { DialogNotice } from "../ui/Dialog";
 import { AlarmBar } from "./AlarmBar";
+import { AlarmLine } from "./AlarmLine";
 import { CommandDialog } from "./CommandDialog";
 import { Connecting } from "./Connecting";
 import { ConnectionBanner } from "./ConnectionBanner";
@@ -19,7 +21,7 @@ const explorer = () => import("../explorer/ExplorerView").then((module) => modul
 export function Shell() {
   useTabSign();
   return (
-    <>
+    <DialogNotice.Provider value={<AlarmLine />}>
       <a class="skip" href="#main" onClick={skipToMain}>
         Skip to the content
       </a>
@@ -31,7 +33,7 @@ export function Shell() {
       <CurrentView />
       <CommandDialog />
       <TokenDialog />
-    </>
+    </DialogNotice.Provider>
   );
 }
 

@@ -1,5 +1,8 @@
-import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { type ComponentChildren, createContext } from "preact";
+import { useContext, useEffect, useId, useRef } from "preact/hooks";
+
+/** What every dialog shows below its title: a modal one lies above all else of the page. */
+export const DialogNotice = createContext<ComponentChildren>(null);
 
 interface Props {
   title: string;
@@ -8,10 +11,13 @@ interface Props {
   children: ComponentChildren;
   /** wide: for tables and pictures */
   wide?: boolean;
+  /** It tells by itself what DialogNotice would. */
+  withoutNotice?: boolean;
 }
 
 /** A modal dialog: the browser's own, which keeps the focus and gives it back. */
-export function Dialog({ title, onClose, children, wide = false }: Props) {
+export function Dialog({ title, onClose, children, wide = false, withoutNotice }: Props) {
+  const notice = useContext(DialogNotice);
   const dialog = useRef<HTMLDialogElement>(null);
   const isOpen = useRef(true);
   const titleId = useId();
@@ -53,6 +59,7 @@ export function Dialog({ title, onClose, children, wide = false }: Props) {
             ×
           </button>
         </header>
+        {!withoutNotice && notice}
         {children}
       </div>
     </dialog>

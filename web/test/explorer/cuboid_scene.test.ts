@@ -40,6 +40,22 @@ describe("the block", () => {
   });
 });
 
+it("labels make way for the handles of the plane and for each other", () => {
+  const view = projectionOf(startingCamera, far, 400, 300);
+  const project = (point: Vector3) => projected(view, point);
+  const plain = axisLabels(far, project);
+  const handles = plain.map(({ x, y }) => [x, y] as [number, number]);
+  for (const { axis, x, y } of axisLabels(far, project, handles)) {
+    const { x: before, y: above } = plain[axis];
+    expect(Math.abs(x - before) >= 39 || Math.abs(y - above) >= 17).toBe(true);
+  }
+  const small = projectionOf(startingCamera, far, 90, 70);
+  const [first, ...others] = axisLabels(far, (point) => projected(small, point));
+  for (const { x, y } of others) {
+    expect(Math.abs(x - first.x) >= 60 || Math.abs(y - first.y) >= 16).toBe(true);
+  }
+});
+
 it("the picture covers the section from edge to edge of its pixels", () => {
   const record = {
     polygon_um: [

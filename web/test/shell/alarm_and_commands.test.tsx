@@ -8,9 +8,12 @@ import { setToken } from "../../src/api/token";
 import type { Status } from "../../src/api/types";
 import { Controls } from "../../src/run/Controls";
 import { AlarmBar } from "../../src/shell/AlarmBar";
+import { AlarmLine } from "../../src/shell/AlarmLine";
 import { CommandDialog } from "../../src/shell/CommandDialog";
 import { commandAsked } from "../../src/shell/commands";
+import { Connecting } from "../../src/shell/Connecting";
 import { ConnectionBanner } from "../../src/shell/ConnectionBanner";
+import { DialogNotice } from "../../src/ui/Dialog";
 import { aStatus, anAlarm as alarm } from "../a_status";
 
 const page = () => document.body;
@@ -35,12 +38,12 @@ function show(changes: Partial<Status>, lost = false): void {
   void act(() => {
     status.value = shown;
     render(
-      <>
+      <DialogNotice.Provider value={<AlarmLine />}>
         <AlarmBar />
         <Controls status={shown} lost={lost} />
         <CommandDialog />
         <ConnectionBanner />
-      </>,
+      </DialogNotice.Provider>,
       page(),
     );
   });
@@ -173,6 +176,29 @@ describe("alarm and commands", () => {
     expect(page().querySelector('dialog [role="alert"]')?.textContent).toMatch(
       /does not answer\. The rig’s state will show/,
     );
+  });
+
+  it("tells of an alarm in a dialog, too, unless that is about it", async () => {
+    const line = () => page().querySelector("dialog .alarm-line")?.textContent;
+    show({ commands: ["pause", "acknowledge"] });
+    await press("Pause");
+    expect(line()).toBeUndefined();
+    show({ state: "faulted", alarm, commands: ["pause", "acknowledge"] });
+    expect(line()).toBe("Alarm: the door is open");
+    await press("Cancel");
+    await press("Acknowledge…");
+    expect(page().querySelector("dialog")?.textContent).toContain("the door is open");
+    expect(line()).toBeUndefined();
+  });
+
+  it("says after a while what may keep the server from being heard", () => {
+    const since = Date.now() - 6000;
+    connection.value = { state: "connecting", why: "", since, heardAt: 0, retryAt: 0 };
+    void act(() => render(<Connecting />, page()));
+    expect(page().textContent).toMatch(/^Connecting….*close one\.$/);
+    connection.value = { ...connection.value, since: since + 3000 };
+    void act(() => render(<Connecting />, page()));
+    expect(page().textContent).toBe("Connecting…");
   });
 
   it("does not abort before the word is typed", async () => {
