@@ -123,8 +123,53 @@ test("a rotation is played, and each frame is a section of its own", async () =>
     { said: () => [...seen].join("; ") },
   );
   await player.getByRole("button", { name: "Pause" }).click();
-  await player.getByRole("button", { name: "Back" }).click();
+});
+
+const planeOf = (page) =>
+  Promise.all(
+    [/^Tilt/, /^Azimuth/, /^(Offset|Depth)/].map((name) =>
+      page.getByRole("spinbutton", { name }).inputValue(),
+    ),
+  );
+
+test("a link and an export are of the frame's plane, not of the one it began from", async () => {
+  const { page } = tab;
+  assert.ok(await page.getByRole("button", { name: "Larger" }).isDisabled());
+  await tab.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.getByRole("button", { name: "Copy link" }).click();
+  await page.getByRole("button", { name: "Copied" }).waitFor();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  const other = await Tab.open(browser);
+  try {
+    await other.page.goto(link);
+    await sharpSection(other.page);
+    const [shown, opened] = await Promise.all([planeOf(page), planeOf(other.page)]);
+    shown.forEach((value, i) =>
+      assert.ok(Math.abs(value - opened[i]) < 0.02, `${opened} ${shown}`),
+    );
+  } finally {
+    await other.close();
+  }
+  const asked = page.waitForRequest(/section\/outline/);
+  await page.getByRole("button", { name: /^Export/ }).click();
+  const outline = new URL((await asked).url()).searchParams;
+  assert.equal(outline.get("through"), new URLSearchParams(link.split("?")[1]).get("through"));
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "Back" }).click();
   await sharpSection(page);
+});
+
+test("the explorer comes back to its plane from another view", async () => {
+  const { page } = tab;
+  const diagonal = await commandOf(page);
+  await page.getByRole("button", { name: "y-z" }).click();
+  await sharpSection(page, diagonal);
+  const before = await commandOf(page);
+  await page.getByRole("link", { name: "Layers" }).click();
+  await page.locator('main[data-view="layers"]').waitFor();
+  await page.getByRole("link", { name: "Explorer" }).click();
+  await sharpSection(page);
+  assert.equal(await commandOf(page), before);
 });
 
 test("a distance is measured in micrometres", async () => {

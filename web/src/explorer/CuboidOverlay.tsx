@@ -1,7 +1,7 @@
 import type { ReadonlySignal } from "@preact/signals";
 
 import { fixed } from "../ui/numbers";
-import { axisLabels } from "./cuboid_scene";
+import { axisLabels } from "./axis_labels";
 import type { ExplorerState } from "./explorer_state";
 import { depthOfLayer } from "./geometry/cuboid";
 import { cornersOf } from "./geometry/plane_rectangle";
@@ -30,6 +30,8 @@ export function CuboidOverlay({ state, projection, handles, held }: Props) {
   const placed = state.shownPlane.value;
   if (!cuboid) return null;
   const at = (point: Vector3) => projected(view, point);
+  const inView = ([x, y]: readonly [number, number]) =>
+    [within(x, labelRoom[0], view.width), within(y, labelRoom[1], view.height)] as const;
   const path = (points: readonly Vector3[]) => svgPoints(points, at);
   const rectangle = state.frame.value ? null : state.rectangle.value;
   const layers = state.layersPresent.value;
@@ -48,13 +50,8 @@ export function CuboidOverlay({ state, projection, handles, held }: Props) {
           ])}
         />
       )}
-      {axisLabels(far, at, handles.value).map(({ axis, x, y }) => (
-        <text
-          key={axis}
-          x={within(x, labelRoom[0], view.width)}
-          y={within(y, labelRoom[1], view.height)}
-          class="axis-label"
-        >
+      {axisLabels(far, at, handles.value, inView).map(({ axis, x, y }) => (
+        <text key={axis} x={x} y={y} class="axis-label">
           {"xyz"[axis]} {fixed(far[axis] / 1000, 2)} mm
         </text>
       ))}

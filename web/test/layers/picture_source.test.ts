@@ -63,4 +63,6 @@ it("stretches a small picture of a frame over the whole face", () => {
   expect(piece.covers).toEqual(all);
   expect(piece.reduced).toBeCloseTo(3000 / 512, 9);
   expect(frame.pieces(all, 1, loaderWith())).toEqual([]);
+  expect(frame.reduction(loaderWith("/api/v1/rejected/x.jpg"))).toBeCloseTo(3000 / 512, 9);
+  expect(frame.reduction(loaderWith())).toBe(1);
 });
