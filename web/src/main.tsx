@@ -6,7 +6,7 @@ import "./styles/controls.css";
 import "./styles/shell.css";
 import { goLive } from "./api/live";
 import { watchAlarms } from "./shell/alarm_sound";
-import { Shell } from "./shell/Shell";
+import { Shell } from "./Shell";
 
 const page = document.getElementById("page");
 if (page) render(<Shell />, page);

@@ -1,21 +1,21 @@
 import { useEffect } from "preact/hooks";
 
-import { connection, service } from "../api/live";
-import { RunView } from "../run/RunView";
-import { DialogNotice } from "../ui/Dialog";
-import { AlarmBar } from "./AlarmBar";
-import { AlarmLine } from "./AlarmLine";
-import { CommandDialog } from "./CommandDialog";
-import { Connecting } from "./Connecting";
-import { ConnectionBanner } from "./ConnectionBanner";
-import { Header } from "./Header";
-import { LazyView } from "./LazyView";
-import { replaceHash, route } from "./route";
-import { useTabSign } from "./tab_sign";
-import { TokenDialog } from "./TokenDialog";
+import { connection, service } from "./api/live";
+import { RunView } from "./run/RunView";
+import { AlarmBar } from "./shell/AlarmBar";
+import { AlarmLine } from "./shell/AlarmLine";
+import { CommandDialog } from "./shell/CommandDialog";
+import { Connecting } from "./shell/Connecting";
+import { ConnectionBanner } from "./shell/ConnectionBanner";
+import { Header } from "./shell/Header";
+import { LazyView } from "./shell/LazyView";
+import { replaceHash, route } from "./shell/route";
+import { useTabSign } from "./shell/tab_sign";
+import { TokenDialog } from "./shell/TokenDialog";
+import { DialogNotice } from "./ui/Dialog";
 
-const layers = () => import("../layers/LayersView").then((module) => module.LayersView);
-const explorer = () => import("../explorer/ExplorerView").then((module) => module.ExplorerView);
+const layers = () => import("./layers/LayersView").then((module) => module.LayersView);
+const explorer = () => import("./explorer/ExplorerView").then((module) => module.ExplorerView);
 
 /** What is around every view, and the view that the address names. */
 export function Shell() {
