@@ -5,7 +5,8 @@ import { obstacleWords } from "./obstacles";
 
 /** What the rig is about, and what it waits for. */
 export function StateHeading({ status }: { status: Status }) {
-  const waiting = status.waiting_for && `${capital(status.waiting_for)}.`;
+  const saidByAlarmBar = status.alarm && !status.commands.includes("acknowledge");
+  const waiting = status.waiting_for && !saidByAlarmBar && `${capital(status.waiting_for)}.`;
   // The reason for a pause is part of what a paused job waits for.
   const cause = status.waiting_for.includes(status.pause_cause) ? "" : status.pause_cause;
   const obstacles = obstacleWords(status);
