@@ -379,6 +379,7 @@ std::string Job::waiting_for() const {
       return "waits for the controller to leave its fault";
     case JobState::faulted:
       if (!fault_stop_.is_over()) return "waits for the rig to be parked";
+      // Before the first look at the controller there is nothing to say of it.
       return "waits for an operator to acknowledge" +
              (last_status_ ? after_colon(why_not_acknowledge().value_or("")) : "");
     case JobState::paused:

@@ -221,14 +221,14 @@ std::vector<OperatorCommand> Job::accepted_commands() const {
 }
 
 void Job::go_on_by_itself(TimePoint now) {
-  const auto [goes_on, why_not] =
+  const UnattendedRestart::Decision decision =
       unattended_restart_.poll(fresh_, supervision_.standing_cause(), !fault_stop_.is_over(), now);
-  if (!why_not.empty()) {
-    alarm_->cause = why_not;
-    log_warning("job", why_not);
-    note("alarm", why_not);
+  if (!decision.why_not.empty()) {
+    alarm_->cause = decision.why_not;
+    log_warning("job", decision.why_not);
+    note("alarm", decision.why_not);
   }
-  if (!goes_on) return;
+  if (!decision.goes_on) return;
   try {
     const OperatorReply reply = acknowledge(now);
     start_after_reset_ = went_on_by_itself_ = reply.accepted;

@@ -93,7 +93,8 @@ void sync_folders(const fs::path& folder) {
 void sync_folder(const fs::path& folder) {
   const FileDescriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor.is_open() || ::fsync(descriptor.get()) != 0) {
-    throw SampleError(folder.string() + ": cannot sync this folder: " + std::strerror(errno));
+    const int error = errno;
+    throw SampleError(folder.string() + ": cannot sync this folder: " + std::strerror(error));
   }
 }
 

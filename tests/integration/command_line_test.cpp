@@ -227,6 +227,15 @@ TEST_F(CommandLine, TheDaemonRefusesAnUnknownKeyAndNamesTheNearest) {
   expect_one_line(run({BIOTOMY_DAEMON, "--config", config}, folder_.path()), kUsage, "settle_ms");
 }
 
+TEST_F(CommandLine, TheDaemonTakesAPolicyOfItsLadderOrSaysWhichThereAre) {
+  expect_one_line(
+      run({BIOTOMY_DAEMON, "--config", "rig.toml", "--qc-policy", "skip"}, folder_.path()), kUsage,
+      "skip not in {pause,accept}");
+  expect_one_line(
+      run({BIOTOMY_DAEMON, "--config", "missing.toml", "--qc-policy", "accept"}, folder_.path()),
+      kUsage, "missing.toml");
+}
+
 TEST_F(CommandLine, TheDaemonSuspectsAMisspeltKeyBehindAMissingOne) {
   const fs::path config = folder_.path() / "rig.toml";
   std::ofstream(config) << "[job]\nsample = \"s\"\nlayers = 3\nlayer_thicknes_um = 20\n";
