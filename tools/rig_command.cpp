@@ -135,7 +135,7 @@ void watch(DaemonConnection& daemon, const RigOptions& options) {
     const bool in_a_step = is_in_a_step(state) && state != "held";
     const std::string line = std::to_string(status.at("committed").get<std::int64_t>()) + "/" +
                              std::to_string(status.at("layers").get<std::int64_t>()) + " layers, " +
-                             (in_a_step ? "running" : state) + (cause.empty() ? "" : ": " + cause);
+                             (in_a_step ? "running" : state + (cause.empty() ? "" : ": " + cause));
     if (line != shown) {
       if (terminal) std::cerr << "\r\033[K";
       std::cout << line << std::endl;
