@@ -10,13 +10,14 @@ namespace biotomy::tests {
 /// What faulty_disk.cpp is told to do to files below `folder`.
 struct Fault {
   std::filesystem::path folder;
-  std::string call = {};         ///< create, mkdir, read, write, sync or rename
-  std::int64_t at = 0;           ///< from the at-th such call on they fail; 0: none by number
-  std::int64_t times = 0;        ///< so many of them; 0: all
-  std::string error = "ENOSPC";  ///< ENOSPC, EIO or EROFS
-  std::int64_t space = 0;        ///< so many bytes can still be written; 0: any number
-  std::int64_t most_bytes = 0;   ///< one write or read transfers at most so many; 0: any number
-  bool cannot_exchange = false;  ///< its file system cannot let two names change places
+  std::string call = {};           ///< create, mkdir, read, write, sync or rename
+  std::int64_t at = 0;             ///< from the at-th such call on they fail; 0: none by number
+  std::int64_t times = 0;          ///< so many of them; 0: all
+  std::int64_t after_renames = 0;  ///< the number counts from the end of so many renames on
+  std::string error = "ENOSPC";    ///< ENOSPC, EIO or EROFS
+  std::int64_t space = 0;          ///< so many bytes can still be written; 0: any number
+  std::int64_t most_bytes = 0;     ///< one write or read transfers at most so many; 0: any number
+  bool cannot_exchange = false;    ///< its file system cannot let two names change places
   std::filesystem::path healed_by = {};  ///< once there is such a file, nothing fails any more
 };
 
@@ -31,6 +32,7 @@ inline std::vector<std::string> environment_of(const Fault& fault,
       "BIOTOMY_FAULT_ERROR=" + fault.error,
       "BIOTOMY_FAULT_AT=" + std::to_string(fault.at),
       "BIOTOMY_FAULT_TIMES=" + std::to_string(fault.times),
+      "BIOTOMY_FAULT_AFTER_RENAMES=" + std::to_string(fault.after_renames),
       "BIOTOMY_FAULT_HEALED_BY=" + fault.healed_by.string(),
       "BIOTOMY_FAULT_SPACE=" + std::to_string(fault.space),
       "BIOTOMY_FAULT_MOST_BYTES=" + std::to_string(fault.most_bytes),

@@ -44,6 +44,7 @@ int error_number(const std::string& name) {
 /// What has happened to the disk, of all processes.
 struct Counts {
   std::atomic<std::int64_t> calls[kCalls]{};
+  std::atomic<std::int64_t> numbered[kCalls]{};  ///< those that may fail by their number
   std::atomic<std::int64_t> written{0};
 };
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
@@ -76,6 +77,7 @@ class FaultyDisk {
         error_(error_number(setting("BIOTOMY_FAULT_ERROR"))),
         first_(number("BIOTOMY_FAULT_AT")),
         times_(number("BIOTOMY_FAULT_TIMES")),
+        after_renames_(number("BIOTOMY_FAULT_AFTER_RENAMES")),
         space_(number("BIOTOMY_FAULT_SPACE")),
         most_bytes_(number("BIOTOMY_FAULT_MOST_BYTES")),
         cannot_exchange_(number("BIOTOMY_FAULT_CANNOT_EXCHANGE") != 0),
@@ -106,7 +108,10 @@ class FaultyDisk {
 
   /// Counts the call; from the chosen one on it fails, with errno set.
   bool fails(Call call) {
-    const std::int64_t count = ++counts_.calls[call];
+    const bool is_numbered = counts_.calls[kRename] >= after_renames_;
+    ++counts_.calls[call];
+    if (!is_numbered) return false;
+    const std::int64_t count = ++counts_.numbered[call];
     const bool failing = first_ > 0 && call_ == kNames[call] && count >= first_ &&
                          (times_ == 0 || count < first_ + times_) && !is_healed();
     if (failing) errno = error_;
@@ -152,6 +157,7 @@ class FaultyDisk {
   int error_;
   std::int64_t first_;
   std::int64_t times_;
+  std::int64_t after_renames_;
   std::int64_t space_;
   std::int64_t most_bytes_;
   bool cannot_exchange_;
