@@ -131,11 +131,12 @@ void watch(DaemonConnection& daemon, const RigOptions& options) {
   while (true) {
     const json status = daemon.status();
     const std::string state = status.at("state");
-    const std::string cause = status.at("pause_cause");
     const bool in_a_step = is_in_a_step(state) && state != "held";
-    const std::string line = std::to_string(status.at("committed").get<std::int64_t>()) + "/" +
-                             std::to_string(status.at("layers").get<std::int64_t>()) + " layers, " +
-                             (in_a_step ? "running" : state + (cause.empty() ? "" : ": " + cause));
+    std::string line = std::to_string(status.at("committed").get<std::int64_t>()) + "/" +
+                       std::to_string(status.at("layers").get<std::int64_t>()) + " layers, " +
+                       (in_a_step ? "running" : state);
+    const std::string cause = status.at("pause_cause");
+    if (!in_a_step && !cause.empty()) line += ": " + cause;
     if (line != shown) {
       if (terminal) std::cerr << "\r\033[K";
       std::cout << line << std::endl;
