@@ -18,40 +18,71 @@ namespace biotomy::reconstruct::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// ---- 8 bits. A vector is made of blocks of 128 bits; a block holds one pixel's pair of texels,
-// six levels of 16 bits and two that mean nothing. Two vectors make one of results, which holds two
-// pixels a block: `even` is of pixels 0, 2, 4 … and `odd` of pixels 1, 3, 5 ….
+// ---- 8 bits. A vector is made of blocks of 128 bits; a block holds the pairs of texels of two
+// pixels, and when its levels have been widened to 16 bits one pixel's: six levels and two that
+// mean nothing. `even` is of pixels 0, 2, 4 … and `odd` of pixels 1, 3, 5 ….
 
 constexpr std::size_t kBlocks = (HWY_MAX_BYTES < 64 ? HWY_MAX_BYTES : 64) / 16;
-using Levels16 = hn::FixedTag<std::int16_t, 8 * kBlocks>;
+using Levels16 = hn::FixedTag<std::uint16_t, 8 * kBlocks>;
 using LevelVector = hn::Vec<Levels16>;
 constexpr std::size_t kPixelsAtOnce = 2 * kBlocks;
-constexpr int kLevelShift = 7;  // bits below a level: differences of levels just fit into 16 bits
+constexpr int kLevelShift = 8;  // bits below a level
 
-/// The pairs at pair[0] + offset, pair[2] + offset … of a vector's blocks: eight bytes each, since
-/// longer loads would reach into the next line of memory, which nobody has asked for.
-template <std::size_t blocks>
-HWY_INLINE auto load_pairs(const std::byte* const* pair, std::ptrdiff_t offset) {
-  const hn::FixedTag<std::uint64_t, blocks> d;
-  if constexpr (blocks == 1) {
-    return hn::LoadU(d, reinterpret_cast<const std::uint64_t*>(pair[0] + offset));
+/// Pairs of texels in a layer, and those at the same places in the next.
+template <typename Vector>
+struct TwoLayers {
+  Vector upper;
+  Vector lower;
+};
+
+/// Those of pixels 0, 1, 2 …: eight bytes each, since longer loads would reach into the next line
+/// of memory, which nobody has asked for.
+template <std::size_t pairs>
+HWY_INLINE auto load_pairs(const std::byte* const* upper, const std::byte* const* lower,
+                           std::ptrdiff_t down) {
+  const hn::FixedTag<std::uint64_t, pairs> d;
+  using Loaded = TwoLayers<hn::Vec<decltype(d)>>;
+  if constexpr (pairs == 1) {
+    return Loaded{hn::LoadU(d, reinterpret_cast<const std::uint64_t*>(upper[0])),
+                  hn::LoadU(d, reinterpret_cast<const std::uint64_t*>(lower[0] + down))};
   } else {
-    return hn::Combine(d, load_pairs<blocks / 2>(pair + blocks, offset),
-                       load_pairs<blocks / 2>(pair, offset));
+    const auto first = load_pairs<pairs / 2>(upper, lower, down);
+    const auto second = load_pairs<pairs / 2>(upper + pairs / 2, lower + pairs / 2, down);
+    return Loaded{hn::Combine(d, second.upper, first.upper),
+                  hn::Combine(d, second.lower, first.lower)};
   }
 }
 
-HWY_INLINE LevelVector levels_at(const std::byte* const* pair, std::ptrdiff_t offset) {
-  const Levels16 d;
-  const hn::Rebind<std::uint8_t, Levels16> d8;
-  const auto bytes = hn::BitCast(d8, load_pairs<kBlocks>(pair, offset));
-  return hn::ShiftLeft<kLevelShift>(hn::PromoteTo(d, bytes));
-}
+/// Levels of the pairs of even and odd pixels.
+struct EvenOdd {
+  LevelVector even;
+  LevelVector odd;
 
+  HWY_INLINE EvenOdd(LevelVector of_even, LevelVector of_odd) : even(of_even), odd(of_odd) {}
+
+  template <typename Pairs>
+  HWY_INLINE explicit EvenOdd(Pairs pairs) {
+    const Levels16 d;
+    const hn::Repartition<std::uint8_t, Levels16> d8;
+    const auto bytes = hn::BitCast(d8, pairs);
+    even = hn::BitCast(d, hn::InterleaveLower(d8, hn::Zero(d8), bytes));
+    odd = hn::BitCast(d, hn::InterleaveUpper(d8, hn::Zero(d8), bytes));
+  }
+};
+
+/// How much of what two colours are mixed of is the second's, and the first's, in 2⁻¹⁶.
 template <typename Vector>
-HWY_INLINE Vector mixed(Vector a, Vector b, Vector part) {
-  return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), part));
-}
+struct Parts {
+  Vector second;
+  Vector first;
+
+  HWY_INLINE explicit Parts(Vector part) : second(part), first(hn::Not(part)) {}
+
+  HWY_INLINE Vector mixed(Vector a, Vector b) const {
+    return hn::Add(hn::MulHigh(a, first), hn::MulHigh(b, second));
+  }
+};
+using LevelParts = Parts<LevelVector>;
 
 /// Byte numbers for a shuffle within each block.
 struct Shuffle {
@@ -75,63 +106,81 @@ constexpr Shuffle spread(std::size_t first, std::size_t second) {
   return shuffle;
 }
 
-/// Makes two texels of three levels two of four: the last level of each means nothing.
-constexpr Shuffle widen() {
-  Shuffle shuffle{};
-  for (std::size_t i = 0; i < 16 * kBlocks; ++i) {
-    const std::size_t level = i % 16 / 2;
-    shuffle.bytes[i] = static_cast<std::uint8_t>(2 * (level < 4 ? level : level - 1) + i % 2);
-  }
-  return shuffle;
-}
-
 constexpr Shuffle kToEven = spread(0, 0);
 constexpr Shuffle kToOdd = spread(1, 1);
 constexpr Shuffle kToBoth = spread(0, 1);
-constexpr Shuffle kWiden = widen();
 
-/// Pixels `at` + odd, at + odd + 2 … mixed along z and y.
-template <bool kCrosses>
-HWY_INLINE LevelVector mixed_pairs(const PixelPlaces<std::uint8_t>& places, std::size_t at,
-                                   std::size_t odd) {
-  const Levels16 d;
-  const Shuffle& to_pixels = odd == 0 ? kToEven : kToOdd;
-  const auto part_y = to_pixels.of(hn::LoadDup128(d, places.y.data() + at));
-  const auto part_z = to_pixels.of(hn::LoadDup128(d, places.z.data() + at));
-  const auto& below = kCrosses ? places.lower : places.upper;
-  const std::ptrdiff_t down = kCrosses ? 0 : places.down;
-  const std::size_t first = at + odd;
-  const auto here = mixed(levels_at(places.upper[0].data() + first, 0),
-                          levels_at(below[0].data() + first, down), part_z);
-  const auto next = mixed(levels_at(places.upper[1].data() + first, 0),
-                          levels_at(below[1].data() + first, down), part_z);
-  return kWiden.of(mixed(here, next, part_y));
+/// R G B of pixels of four levels. `rgb` has room for four levels of the last one.
+template <typename D>
+HWY_INLINE void store_packed(hn::Vec<D> pixels, D d, std::uint8_t* rgb) {
+  constexpr std::size_t kBytes = hn::MaxLanes(d);
+  if constexpr (kBytes > 16) {
+    const hn::Half<D> half;
+    store_packed(hn::LowerHalf(half, pixels), half, rgb);
+    store_packed(hn::UpperHalf(half, pixels), half, rgb + kBytes / 2 / 4 * 3);
+  } else {
+    HWY_ALIGN static constexpr std::uint8_t kPacked[16] = {0,  1,  2,  4,  5,    6,    8,    9,
+                                                           10, 12, 13, 14, 0x80, 0x80, 0x80, 0x80};
+    hn::StoreU(hn::TableLookupBytes(pixels, hn::Load(d, kPacked)), d, rgb);
+  }
 }
 
-template <bool kCrosses>
+/// The right texel's levels to where the left one's were.
+HWY_INLINE LevelVector right_texel(LevelVector pair) {
+  const hn::Repartition<std::uint8_t, Levels16> d8;
+  return hn::BitCast(Levels16(), hn::ShiftRightBytes<6>(d8, hn::BitCast(d8, pair)));
+}
+
+template <bool kCrosses, bool kInALayer>
 HWY_INLINE void mix_row(const PixelPlaces<std::uint8_t>& places, std::size_t count,
-                        std::uint8_t* pixels) {
+                        const PairLines<std::uint8_t>& ahead, std::uint8_t* rgb) {
+  using Places = const std::byte* const*;
   const Levels16 d;
+  const hn::RebindToSigned<Levels16> signed16;
   const hn::Repartition<std::uint64_t, Levels16> d64;
   const hn::Rebind<std::uint8_t, Levels16> d8;
+  const Places upper[2] = {places.upper[0].data(), places.upper[1].data()};
+  const Places lower[2] = {kCrosses ? places.lower[0].data() : upper[0],
+                           kCrosses ? places.lower[1].data() : upper[1]};
+  const std::ptrdiff_t down = kCrosses ? 0 : places.down;
+  const std::uint16_t* const parts_x = places.x.data();
+  const std::uint16_t* const parts_y = places.y.data();
+  const std::uint16_t* const parts_z = places.z.data();
+  const auto both = [&](LevelVector even, LevelVector odd) HWY_ATTR {
+    return hn::BitCast(d, hn::InterleaveLower(d64, hn::BitCast(d64, even), hn::BitCast(d64, odd)));
+  };
+  const LevelParts same_z(hn::Set(d, parts_z[0]));
   for (std::size_t at = 0; at < count; at += kPixelsAtOnce) {
-    const auto even = hn::BitCast(d64, mixed_pairs<kCrosses>(places, at, 0));
-    const auto odd = hn::BitCast(d64, mixed_pairs<kCrosses>(places, at, 1));
-    const auto left = hn::BitCast(d, hn::InterleaveLower(d64, even, odd));
-    const auto right = hn::BitCast(d, hn::InterleaveUpper(d64, even, odd));
-    const auto sum = mixed(left, right, kToBoth.of(hn::LoadDup128(d, places.x.data() + at)));
-    const auto rounded =
-        hn::ShiftRight<kLevelShift>(hn::Add(sum, hn::Set(d, 1 << (kLevelShift - 1))));
-    hn::StoreU(hn::DemoteTo(d8, rounded), d8, pixels + 4 * at);
+    ahead.ask(at, at + kPixelsAtOnce);
+    const auto part_y = hn::LoadDup128(d, parts_y + at);
+    const auto part_z = hn::LoadDup128(d, parts_z + at);
+    const LevelParts z_even = kInALayer ? same_z : LevelParts(kToEven.of(part_z));
+    const LevelParts z_odd = kInALayer ? same_z : LevelParts(kToOdd.of(part_z));
+    const auto along_z = [&](std::size_t row) HWY_ATTR {
+      const auto pairs = load_pairs<kPixelsAtOnce>(upper[row] + at, lower[row] + at, down);
+      const EvenOdd above(pairs.upper);
+      const EvenOdd below(pairs.lower);
+      return EvenOdd(z_even.mixed(above.even, below.even), z_odd.mixed(above.odd, below.odd));
+    };
+    const EvenOdd here = along_z(0);
+    const EvenOdd next = along_z(1);
+    const auto even = LevelParts(kToEven.of(part_y)).mixed(here.even, next.even);
+    const auto odd = LevelParts(kToOdd.of(part_y)).mixed(here.odd, next.odd);
+    const LevelParts x(kToBoth.of(hn::LoadDup128(d, parts_x + at)));
+    const auto sum = x.mixed(both(even, odd), both(right_texel(even), right_texel(odd)));
+    const auto rounded = hn::ShiftRight<kLevelShift>(hn::Add(sum, hn::Set(d, kHalfLevel)));
+    store_packed(hn::DemoteTo(d8, hn::BitCast(signed16, rounded)), d8, rgb + 3 * at);
   }
 }
 
 inline void mix_linear(const PixelPlaces<std::uint8_t>& places, std::size_t count,
-                       std::uint8_t* pixels) {
-  if (places.crosses) {
-    mix_row<true>(places, count, pixels);
+                       const PairLines<std::uint8_t>& ahead, std::uint8_t* rgb) {
+  if (!places.in_a_layer) {
+    mix_row<true, false>(places, count, ahead, rgb);
+  } else if (places.crosses) {
+    mix_row<true, true>(places, count, ahead, rgb);
   } else {
-    mix_row<false>(places, count, pixels);
+    mix_row<false, true>(places, count, ahead, rgb);
   }
 }
 
@@ -147,25 +196,34 @@ HWY_INLINE TexelVector texel_at(const std::byte* texel) {
   return hn::ConvertTo(FourFloats(), hn::PromoteTo(d32, levels));
 }
 
-HWY_INLINE TexelVector mixed(TexelVector a, TexelVector b, float part) {
-  return hn::MulAdd(hn::Sub(b, a), hn::Set(FourFloats(), part), a);
-}
+/// How much of what two texels are mixed of is the second.
+struct TexelPart {
+  TexelVector second;
+
+  HWY_INLINE explicit TexelPart(float part) : second(hn::Set(FourFloats(), part)) {}
+
+  HWY_INLINE TexelVector mixed(TexelVector a, TexelVector b) const {
+    return hn::MulAdd(hn::Sub(b, a), second, a);
+  }
+};
 
 inline void mix_linear(const PixelPlaces<std::uint16_t>& places, std::size_t count,
-                       std::uint16_t* pixels) {
+                       const PairLines<std::uint16_t>& ahead, std::uint16_t* rgb) {
   constexpr std::ptrdiff_t kRight = 6;  // bytes to the right texel of a pair
   const hn::FixedTag<std::uint16_t, 4> d16;
   const hn::FixedTag<std::int32_t, 4> d32;
   for (std::size_t i = 0; i < count; ++i) {
+    ahead.ask(i, i + 1);
+    const TexelPart x(places.x[i]);
+    const TexelPart y(places.y[i]);
+    const TexelPart z(places.z[places.in_a_layer ? 0 : i]);
     const auto along_z = [&](std::size_t row, std::ptrdiff_t to) HWY_ATTR {
-      const std::byte* upper = places.upper[row][i];
-      const std::byte* lower = places.crosses ? places.lower[row][i] : upper + places.down;
-      return mixed(texel_at(upper + to), texel_at(lower + to), places.z[i]);
+      return z.mixed(texel_at(places.upper[row][i] + to), texel_at(places.below(row, i) + to));
     };
-    const auto left = mixed(along_z(0, 0), along_z(1, 0), places.y[i]);
-    const auto right = mixed(along_z(0, kRight), along_z(1, kRight), places.y[i]);
-    const auto sum = hn::Add(mixed(left, right, places.x[i]), hn::Set(FourFloats(), 0.5F));
-    hn::StoreU(hn::DemoteTo(d16, hn::ConvertTo(d32, sum)), d16, pixels + 4 * i);
+    const auto left = y.mixed(along_z(0, 0), along_z(1, 0));
+    const auto right = y.mixed(along_z(0, kRight), along_z(1, kRight));
+    const auto sum = hn::Add(x.mixed(left, right), hn::Set(FourFloats(), 0.5F));
+    hn::StoreU(hn::DemoteTo(d16, hn::ConvertTo(d32, sum)), d16, rgb + 3 * i);
   }
 }
 

@@ -29,18 +29,19 @@ struct StraightLevels;
 template <>
 struct StraightLevels<std::uint8_t> {
   static constexpr std::size_t kLanes = HWY_MAX_BYTES < 32 ? 8 : 16;
-  using D = hn::FixedTag<std::int16_t, kLanes>;
+  using D = hn::FixedTag<std::uint16_t, kLanes>;
   using D8 = hn::Rebind<std::uint8_t, D>;
   using V = hn::Vec<D>;
 
-  HWY_INLINE static V part(std::int16_t part) { return hn::Set(D(), part); }
+  HWY_INLINE static Parts<V> part(std::uint16_t part) { return Parts<V>(hn::Set(D(), part)); }
   HWY_INLINE static V load(const std::byte* levels) {
     return hn::ShiftLeft<kLevelShift>(
         hn::PromoteTo(D(), hn::LoadU(D8(), reinterpret_cast<const std::uint8_t*>(levels))));
   }
   HWY_INLINE static void store(V levels, std::uint8_t* out) {
-    const auto half = hn::Set(D(), 1 << (kLevelShift - 1));
-    hn::StoreU(hn::DemoteTo(D8(), hn::ShiftRight<kLevelShift>(hn::Add(levels, half))), D8(), out);
+    const V mixed = part(0).mixed(levels, levels);  // as along x by mix_linear, to the bit
+    const auto rounded = hn::ShiftRight<kLevelShift>(hn::Add(mixed, hn::Set(D(), kHalfLevel)));
+    hn::StoreU(hn::DemoteTo(D8(), hn::BitCast(hn::RebindToSigned<D>(), rounded)), D8(), out);
   }
 };
 
@@ -49,7 +50,7 @@ struct StraightLevels<std::uint16_t> {
   static constexpr std::size_t kLanes = 4;
   using V = TexelVector;
 
-  HWY_INLINE static float part(float part) { return part; }
+  HWY_INLINE static TexelPart part(float part) { return TexelPart(part); }
   HWY_INLINE static V load(const std::byte* levels) { return texel_at(levels); }
   HWY_INLINE static void store(V levels, std::uint16_t* out) {
     const hn::FixedTag<std::uint16_t, kLanes> d16;
@@ -75,9 +76,9 @@ HWY_INLINE void mix_straight(const StraightRun& run, const StraightParts<Level>&
     for (std::size_t i = 0; i < kLevels; i += Levels::kLanes) {
       const auto at = [&](const std::byte* row)
                           HWY_ATTR { return Levels::load(row + place + i * sizeof(Level)); };
-      const auto here = mixed(at(run.upper[0]), at(run.lower[0]), z);
-      const auto next = mixed(at(run.upper[1]), at(run.lower[1]), z);
-      Levels::store(mixed(here, next, y), out + i);
+      const auto here = z.mixed(at(run.upper[0]), at(run.lower[0]));
+      const auto next = z.mixed(at(run.upper[1]), at(run.lower[1]));
+      Levels::store(y.mixed(here, next), out + i);
     }
   };
   std::size_t texel = run.first;

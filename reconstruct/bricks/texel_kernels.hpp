@@ -3,93 +3,58 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <type_traits>
 #include <vector>
+
+#include "reconstruct/bricks/row_path.hpp"
 
 namespace biotomy::reconstruct {
 
 // The innermost loops of the sampler, for levels of 8 bits (`Level` std::uint8_t) and of 16
 // (std::uint16_t). Written once in Highway and compiled for every vector width; the widest that the
-// processor has is chosen when the program runs. Colours come out as pixels of four levels, R G B
-// and one that means nothing, and are packed to R G B at the end.
+// processor has is chosen when the program runs.
 //
-// A row of pixels is sampled in two passes: first all its places are computed, run by run, then its
-// colours. In one pass the second half would wait for the first at every step, as addresses that a
-// vector has computed reach the loads through memory.
-
-/// Positions are in fixed point: a number of voxels with kFractionBits after the point. Whole steps
-/// are added to them, so nothing but the step's own rounding (2⁻²³ voxel at most) adds up over the
-/// pixels that are placed together: up to kMostPixels, over up to kMostVoxels.
-inline constexpr int kFractionBits = 22;
-inline constexpr int kMostPixels = 256;
-inline constexpr int kMostVoxels = (1 << (31 - kFractionBits)) - 2;
+// A row of pixels is sampled in two passes: first all its places are computed, then its colours. In
+// one pass the second half would wait for the first at every step, as addresses that a vector has
+// computed reach the loads through memory.
 
 /// Kernels work on whole vectors: so many places, and pixels, behind the last are read and written.
 inline constexpr std::size_t kRoomPixels = 16;
 
-/// A row of pixels along one axis, among the voxels of a box of bricks.
-struct RowAxis {
-  std::int32_t start = 0;  ///< of pixel 0, in fixed point, from voxel `base` on
-  std::int32_t step = 0;
-  int base = 0;   ///< voxels are counted from the box's first one
-  int last = 0;   ///< the volume's last voxel: what is beyond it or before 0 is moved to the border
-  int first = 0;  ///< the volume's first voxel, likewise
-  int side = 1;   ///< of a brick
-  int slot_stride = 1;  ///< from a brick's number in the box to the next one's
-  int next = 1;  ///< 0 where all pixels lie on voxel centres: there is no neighbour to mix with
-};
+/// Writes to `found` the number of SupportBricks of each pixel of the row, 0 to `count` - 1, that
+/// has not the same as the pixel before it; returns how many these are. There is room for `count`
+/// numbers and kRoomPixels behind them.
+std::size_t find_bricks(const RowPath& path, int count, std::int32_t* found);
 
-struct RowPath {
-  std::array<RowAxis, 3> axes;  ///< x, y, z
-  int block_row_bytes = 0;      ///< of a brick, as TexelBlocks says
-  int layer_bytes = 0;
-
-  /// The number in the box of the brick with these numbers along x, y and z.
-  int slot(int x, int y, int z) const {
-    return x * axes[0].slot_stride + y * axes[1].slot_stride + z * axes[2].slot_stride;
-  }
-};
-
-/// Along one axis the bricks, by their number in the box, of a pixel's voxel and of the next, with
-/// which it is mixed.
-struct BrickPair {
-  int near = 0;
-  int far = 0;
-
-  bool operator==(const BrickPair&) const = default;
-};
-
-/// Pixels of a row, from `first` to before `last`, whose supports for linear lie in the same
-/// bricks.
-struct BrickRun {
-  int first = 0;
-  int last = 0;
-  std::array<BrickPair, 3> bricks;  ///< x, y, z
-
-  /// Texels of the support have to be gathered one by one: the two of a pair are in different
-  /// bricks, or one would be beyond the volume's border, or the row runs from layers of one brick
-  /// into those of another.
-  bool parted = false;
+/// A pixel whose pairs of texels are parted, as the right ones lie in the next brick along x.
+struct PartedPixel {
+  std::int32_t pixel = 0;
+  std::array<const std::byte*, 2> upper{};  ///< the right texels of the row's `upper`
+  std::array<const std::byte*, 2> lower{};
 };
 
 /// Where the pixels of a row lie, for the linear kernel: the pair of texels (at the whole part of x
 /// and the next) in the row of the whole part of y and in the next row, both in the layer of the
-/// whole part of z; the pairs in the next layer lie `down` bytes behind those or, where all of the
-/// row's are in another brick, at `lower`. And the place between the texels: 15 bits with levels of
-/// 8 bits, float with 16.
+/// whole part of z; the pairs in the next layer lie `down` bytes behind those or, where some of the
+/// row's may be in another brick, at `lower`. And the place between the texels: 16 bits with levels
+/// of 8 bits, float with 16.
 template <typename Level>
 struct PixelPlaces {
-  using Part = std::conditional_t<sizeof(Level) == 1, std::int16_t, float>;
+  using Part = std::conditional_t<sizeof(Level) == 1, std::uint16_t, float>;
   using Pairs = std::array<std::vector<const std::byte*>, 2>;  // in a row, and in the next
 
   Pairs upper;
   Pairs lower;  ///< filled and looked at only if `crosses`
   bool crosses = false;
+  bool in_a_layer = false;  ///< then all pixels have the part of z of the first
   std::ptrdiff_t down = 0;
   std::vector<Part> x;
   std::vector<Part> y;
   std::vector<Part> z;
+
+  /// In the row's order, the first `parted_count`: of their pairs only the left texel is one.
+  std::vector<PartedPixel> parted;
+  std::size_t parted_count = 0;
 
   void resize(std::size_t pixels) {
     for (Pairs* pairs : {&upper, &lower}) {
@@ -100,27 +65,77 @@ struct PixelPlaces {
     for (auto* parts : {&x, &y, &z}) {
       parts->resize(pixels + kRoomPixels);
     }
+    parted.resize(pixels);
+  }
+
+  /// The left texel of a pixel's pair in the next layer.
+  const std::byte* below(std::size_t row, std::size_t pixel) const {
+    return crosses ? lower[row][pixel] : upper[row][pixel] + down;
   }
 
   /// A part, 0 to below 1, as it is kept here.
   static Part part(float value) {
-    return static_cast<Part>(sizeof(Level) == 1 ? value * 32768.0F : value);
+    return static_cast<Part>(sizeof(Level) == 1 ? value * 65536.0F : value);
   }
 };
 
-/// Places the pixels of those of a row's runs that are not parted. `bricks` are the box's, by slot.
-/// Up to kRoomPixels places behind each run are overwritten with places of nothing, before the next
-/// run is placed.
+/// Places the pixels 0 to `count` - 1 of a row. `bricks` are the box's, by slot: all that
+/// find_bricks tells are there. Behind the last pixel its place goes on.
 template <typename Level>
-void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
-                PixelPlaces<Level>& places);
+void place_row(const RowPath& path, int count, const std::byte* const* bricks,
+               PixelPlaces<Level>& places);
+
+/// The lines of memory that a row's pairs lie in, to be asked for, so that they are near when it is
+/// the row's turn: a section has no pattern that the processor could foresee. Asked for little by
+/// little, while another row is mixed, they keep the memory busy all the time.
+template <typename Level>
+class PairLines {
+ public:
+  PairLines() = default;
+  PairLines(const PixelPlaces<Level>& places, std::size_t count)
+      : upper_{places.upper[0].data(), places.upper[1].data()},
+        lower_{places.crosses ? places.lower[0].data() : upper_[0],
+               places.crosses ? places.lower[1].data() : upper_[1]},
+        down_(places.crosses ? 0 : places.down),
+        count_(count) {}
+
+  std::size_t count() const { return count_; }
+
+  /// Asks for those of the pixels from `first` to before `end` that there are. They are to come
+  /// into the second level of the cache: the first one is too small for two rows.
+  [[gnu::always_inline]] void ask(std::size_t first, std::size_t end) const {
+    end = end < count_ ? end : count_;
+    for (std::size_t i = first; i < end; i += kPixelsOfALine) {
+      for (std::size_t row = 0; row < 2; ++row) {
+        __builtin_prefetch(upper_[row][i], 0, kSecondLevel);
+        __builtin_prefetch(lower_[row][i] + down_, 0, kSecondLevel);
+      }
+    }
+  }
+
+ private:
+  static constexpr int kSecondLevel = 2;
+  static constexpr std::size_t kPixelsOfALine = 2;  // at least: a line holds 4 × 4 texels
+
+  std::array<const std::byte* const*, 2> upper_{};
+  std::array<const std::byte* const*, 2> lower_{};
+  std::ptrdiff_t down_ = 0;
+  std::size_t count_ = 0;
+};
+
+/// Added before the bits below a level are cut off. Each of the three steps of mixing levels of 8
+/// bits loses 0 to 3 of 256 parts of a level, as its two products are cut off and its weights add
+/// up to 1 − 2⁻¹⁶: half of that is made up for.
+inline constexpr int kHalfLevel = 128 + 4;
 
 /// Trilinear. Radius 1 voxel, support 2, order 1 (continuous). Within ±1 level of exact arithmetic,
 /// and exactly the voxel's own colour at a voxel's centre. With 8 bits the arithmetic is of 16-bit
-/// fixed point with 7 bits below a level (weights of 15 bits, rounded at each of the three steps:
-/// at most 0.03 level in all), with 16 bits it is float.
+/// fixed point with 8 bits below a level and weights of 16 bits, with 16 bits it is float. Writes
+/// R G B, and has room for kRoomPixels pixels more; what it writes there means nothing. As many of
+/// the pixels `ahead` are asked for meanwhile.
 template <typename Level>
-void mix_linear(const PixelPlaces<Level>& places, std::size_t count, Level* pixels);
+void mix_linear(const PixelPlaces<Level>& places, std::size_t count, const PairLines<Level>& ahead,
+                Level* rgb);
 
 /// Pixels of a row that runs along x from voxel to voxel: their texels stand side by side in one
 /// brick, and are mixed only with those of other rows.
@@ -140,19 +155,15 @@ struct StraightParts {
   typename PixelPlaces<Level>::Part z{};
 };
 
-/// Gives what mix_linear and pack_pixels would, R G B, in a fraction of the time.
+/// Gives what mix_linear would in a fraction of the time, and needs no room.
 template <typename Level>
 void mix_straight(const StraightRun& run, const StraightParts<Level>& parts, Level* rgb);
 
 /// Tricubic by Catmull-Rom (Keys 1981, a = −½). Radius 2 voxels, support 4, order 2 (continuous
 /// with its first derivative; reproduces quadratics). In float; what overshoots is clamped.
 /// `texels` are the 4³ of the support, R G B and a fourth level, x fastest, then y, then z; `part`
-/// is the place between the middle ones, x, y, z.
+/// is the place between the middle ones, x, y, z. Writes R G B and a fourth level.
 template <typename Level>
 void mix_cubic(const Level* texels, const std::array<float, 3>& part, Level* pixel);
-
-/// R G B of pixels of four levels.
-template <typename Level>
-void pack_pixels(const Level* pixels, std::size_t count, Level* rgb);
 
 }  // namespace biotomy::reconstruct

@@ -9,111 +9,137 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <span>
 
-#include "reconstruct/bricks/brick_runs.hpp"
+#include "reconstruct/bricks/row_path.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/bricks/texel_kernels.hpp"
 
 namespace biotomy::reconstruct::scalar {
 
+inline std::size_t find_bricks(const RowPath& path, int count, std::int32_t* found) {
+  std::size_t total = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::array<AxisPlace, 3> places{AxisPlace(path.axes[0], i), AxisPlace(path.axes[1], i),
+                                          AxisPlace(path.axes[2], i)};
+    SupportBricks bricks{
+        path.slot(places[0].near_brick, places[1].near_brick, places[2].near_brick), 0};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bricks.further |= (places[axis].far_brick != places[axis].near_brick ? 1U : 0U) << axis;
+    }
+    found[total] = bricks.number();
+    total += i == 0 || found[total] != found[total - 1] ? 1 : 0;
+  }
+  return total;
+}
+
 template <typename Level>
-void place_runs(const RowPath& path, std::span<const BrickRun> runs, const std::byte* const* bricks,
-                PixelPlaces<Level>& places) {
+void place_row(const RowPath& path, int count, const std::byte* const* bricks,
+               PixelPlaces<Level>& places) {
   constexpr int kSide = TexelBlocks::kSide;
   constexpr int kTexel = TexelBlocks::kColours * static_cast<int>(sizeof(Level));
-  constexpr int kBlock = 64 * static_cast<int>(sizeof(Level));
-  for (const BrickRun& run : runs) {
-    const BrickPair& x_bricks = run.bricks[0];
-    const BrickPair& y_bricks = run.bricks[1];
-    const BrickPair& z_bricks = run.bricks[2];
-    for (int i = run.first; i < run.last && !run.parted; ++i) {
-      const TexelPair x = texel_pair(path.axes[0], x_bricks, i);
-      const TexelPair y = texel_pair(path.axes[1], y_bricks, i);
-      const TexelPair z = texel_pair(path.axes[2], z_bricks, i);
-      const auto place = [&](int y_brick, int row, int z_brick, int layer) {
-        return bricks[path.slot(x_bricks.near, y_brick, z_brick)] +
-               std::ptrdiff_t{x.near / kSide * kBlock + x.near % kSide * kTexel +
-                              row / kSide * path.block_row_bytes +
-                              row % kSide * (kSide + 1) * kTexel + layer * path.layer_bytes};
-      };
-      const auto pixel = static_cast<std::size_t>(i);
-      places.upper[0][pixel] = place(y_bricks.near, y.near, z_bricks.near, z.near);
-      places.upper[1][pixel] = place(y_bricks.far, y.far, z_bricks.near, z.near);
+  constexpr int kBlock = TexelBlocks::kBlockLevels * static_cast<int>(sizeof(Level));
+  const AxisPlace layer(path.axes[2], 0);
+  places.in_a_layer = path.stays_in_a_layer();
+  places.crosses = !path.stays_in_a_layer() || layer.near_brick != layer.far_brick;
+  places.down = std::ptrdiff_t{layer.far - layer.near} * path.layer_bytes;
+  places.parted_count = 0;
+  for (int i = 0; i < count; ++i) {
+    const AxisPlace x(path.axes[0], i);
+    const AxisPlace y(path.axes[1], i);
+    const AxisPlace z(path.axes[2], i);
+    const auto texel = [&](int x_brick, int column, bool next_row, bool next_layer) {
+      const int row = next_row ? y.far : y.near;
+      return bricks[path.slot(x_brick, next_row ? y.far_brick : y.near_brick,
+                              next_layer ? z.far_brick : z.near_brick)] +
+             std::ptrdiff_t{column / kSide * kBlock + column % kSide * kTexel +
+                            row / kSide * path.block_row_bytes +
+                            row % kSide * (kSide + 1) * kTexel +
+                            (next_layer ? z.far : z.near) * path.layer_bytes};
+    };
+    const auto pixel = static_cast<std::size_t>(i);
+    for (std::size_t row = 0; row < 2; ++row) {
+      places.upper[row][pixel] = texel(x.near_brick, x.near, row == 1, false);
       if (places.crosses) {
-        places.lower[0][pixel] = place(y_bricks.near, y.near, z_bricks.far, z.far);
-        places.lower[1][pixel] = place(y_bricks.far, y.far, z_bricks.far, z.far);
+        places.lower[row][pixel] = texel(x.near_brick, x.near, row == 1, true);
       }
-      places.x[pixel] = PixelPlaces<Level>::part(x.part);
-      places.y[pixel] = PixelPlaces<Level>::part(y.part);
-      places.z[pixel] = PixelPlaces<Level>::part(z.part);
+    }
+    places.x[pixel] = PixelPlaces<Level>::part(x.part);
+    places.y[pixel] = PixelPlaces<Level>::part(y.part);
+    places.z[pixel] = PixelPlaces<Level>::part(z.part);
+    if (x.far_brick != x.near_brick) {
+      places.parted[places.parted_count++] = {
+          i,
+          {texel(x.far_brick, x.far, false, false), texel(x.far_brick, x.far, true, false)},
+          {texel(x.far_brick, x.far, false, true), texel(x.far_brick, x.far, true, true)}};
     }
   }
 }
 
-/// A level of the left (x = 0) or right texel of a pair.
 template <typename Level>
-Level level_of(const std::byte* pair, int x, int colour) {
+Level level_at(const std::byte* texels, int number) {
   Level level{};
-  std::memcpy(&level,
-              pair + static_cast<std::size_t>(x * TexelBlocks::kColours + colour) * sizeof(Level),
-              sizeof level);
+  std::memcpy(&level, texels + static_cast<std::size_t>(number) * sizeof level, sizeof level);
   return level;
 }
 
-/// a and b mixed, as processors' instruction for it does: (d · part + 2¹⁴) / 2¹⁵ is added to a.
-inline int mixed(int a, int b, std::int16_t part) {
-  return a + (((b - a) * part + (1 << 14)) >> 15);
+/// The first and the second mixed, as the vectors' instructions do it: the upper 16 bits of each
+/// product.
+inline unsigned mixed(unsigned first, unsigned second, std::uint16_t part) {
+  constexpr unsigned kMost = 0xFFFF;
+  return (first * (kMost - part) >> 16U) + (second * part >> 16U);
 }
-inline float mixed(float a, float b, float part) {
-  return a + (b - a) * part;
+inline float mixed(float first, float second, float part) {
+  return first + (second - first) * part;
+}
+
+/// A level as it is mixed, and back.
+inline unsigned widened(std::uint8_t level) {
+  return static_cast<unsigned>(level) << 8U;
+}
+inline float widened(std::uint16_t level) {
+  return level;
+}
+inline std::uint8_t narrowed(unsigned level) {
+  return static_cast<std::uint8_t>((level + kHalfLevel) >> 8U);
+}
+inline std::uint16_t narrowed(float level) {
+  return static_cast<std::uint16_t>(level + 0.5F);
 }
 
 template <typename Level>
-void mix_linear(const PixelPlaces<Level>& places, std::size_t count, Level* pixels) {
-  constexpr bool kBytes = sizeof(Level) == 1;
-  using Value = std::conditional_t<kBytes, int, float>;
-  constexpr Value kScale = kBytes ? 128 : 1;  // 7 bits below a level
+void mix_linear(const PixelPlaces<Level>& places, std::size_t count, const PairLines<Level>& ahead,
+                Level* rgb) {
   for (std::size_t i = 0; i < count; ++i) {
+    ahead.ask(i, i + 1);
+    const auto z = places.z[places.in_a_layer ? 0 : i];
     for (int colour = 0; colour < TexelBlocks::kColours; ++colour) {
-      std::array<Value, 2> along_x{};
-      for (int x = 0; x < 2; ++x) {
-        std::array<Value, 2> along_y{};
-        for (std::size_t row = 0; row < 2; ++row) {
-          const std::byte* upper = places.upper[row][i];
-          const std::byte* lower = places.crosses ? places.lower[row][i] : upper + places.down;
-          along_y[row] =
-              mixed(static_cast<Value>(level_of<Level>(upper, x, colour)) * kScale,
-                    static_cast<Value>(level_of<Level>(lower, x, colour)) * kScale, places.z[i]);
-        }
-        along_x[static_cast<std::size_t>(x)] = mixed(along_y[0], along_y[1], places.y[i]);
-      }
-      const Value sum = mixed(along_x[0], along_x[1], places.x[i]);
-      pixels[4 * i + static_cast<std::size_t>(colour)] =
-          kBytes ? static_cast<Level>((static_cast<int>(sum) + 64) >> 7)
-                 : static_cast<Level>(static_cast<float>(sum) + 0.5F);
+      const auto along_y = [&](int texel) {
+        const int level = TexelBlocks::kColours * texel + colour;
+        const auto along_z = [&](std::size_t row) {
+          return mixed(widened(level_at<Level>(places.upper[row][i], level)),
+                       widened(level_at<Level>(places.below(row, i), level)), z);
+        };
+        return mixed(along_z(0), along_z(1), places.y[i]);
+      };
+      *rgb++ = narrowed(mixed(along_y(0), along_y(1), places.x[i]));
     }
-    pixels[4 * i + 3] = 0;
   }
 }
 
 template <typename Level>
 void mix_straight(const StraightRun& run, const StraightParts<Level>& parts, Level* rgb) {
-  PixelPlaces<Level> places;
-  places.resize(1);
-  places.crosses = true;
-  places.y[0] = parts.y;
-  places.z[0] = parts.z;
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-    const std::size_t levels = i / TexelBlocks::kSide * TexelBlocks::kBlockLevels +
-                               i % TexelBlocks::kSide * TexelBlocks::kColours;
-    for (std::size_t row = 0; row < 2; ++row) {
-      places.upper[row][0] = run.upper[row] + levels * sizeof(Level);
-      places.lower[row][0] = run.lower[row] + levels * sizeof(Level);
+    const std::size_t place = (i / TexelBlocks::kSide * TexelBlocks::kBlockLevels +
+                               i % TexelBlocks::kSide * TexelBlocks::kColours) *
+                              sizeof(Level);
+    for (int colour = 0; colour < TexelBlocks::kColours; ++colour) {
+      const auto along_z = [&](std::size_t row) {
+        return mixed(widened(level_at<Level>(run.upper[row] + place, colour)),
+                     widened(level_at<Level>(run.lower[row] + place, colour)), parts.z);
+      };
+      const auto along_y = mixed(along_z(0), along_z(1), parts.y);
+      *rgb++ = narrowed(mixed(along_y, along_y, typename PixelPlaces<Level>::Part{0}));
     }
-    std::array<Level, 4> pixel{};
-    scalar::mix_linear(places, 1, pixel.data());
-    rgb = std::copy_n(pixel.begin(), 3, rgb);
   }
 }
 
@@ -138,13 +164,6 @@ void mix_cubic(const Level* texels, const std::array<float, 3>& part, Level* pix
       sum += x[i % 4] * y[i / 4 % 4] * z[i / 16] * static_cast<float>(texels[4 * i + colour]);
     }
     pixel[colour] = static_cast<Level>(std::clamp(sum, 0.0F, kMost));
-  }
-}
-
-template <typename Level>
-void pack_pixels(const Level* pixels, std::size_t count, Level* rgb) {
-  for (std::size_t i = 0; i < count; ++i) {
-    std::copy_n(pixels + 4 * i, 3, rgb + 3 * i);
   }
 }
 

@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kTileColumns = kMostPixels;
 constexpr int kTileColumnsOf16Bits =
     32;  // so that what the steps' rounding adds up stays below a level
-constexpr int kTileRows = 32;
-constexpr int kStripRows = 32;
+constexpr int kTileRows = 64;
+constexpr int kStripRows = 128;
 constexpr int kLeastStripRows = 8;
 constexpr std::size_t kStripsPlanned = 4;  // and announced: more keep a disk busier, warm they cost
 constexpr double kBoxBricks = 4096;        // a tile's table stays in the nearest cache levels

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reconstruct/bricks/texel_kernels.hpp"
+
 namespace biotomy::reconstruct {
 namespace {
 
@@ -86,15 +88,15 @@ TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, con
     row.inside.last = std::clamp(row.inside.last, row.inside.first, tile.columns.last);
   }
   set_box(kind);
-  RunFinder finder;
+  if (kind == Interpolation::linear) {
+    need_linear();
+    return;
+  }
   for (const PictureRow& row : rows_) {
-    if (kind == Interpolation::linear) {
-      need_linear(row, finder);
-    } else if (row.inside.first < row.inside.last) {
+    if (row.inside.first < row.inside.last) {
       need_supports(row);
     }
   }
-  first_run_.push_back(runs_.size());
 }
 
 // The bricks around the tile's pixels and their support.
@@ -154,49 +156,68 @@ RowPath TilePlan::path_of(const PictureRow& row) const {
   return path;
 }
 
-void TilePlan::need(const std::array<BrickPair, 3>& bricks) {
-  const auto& [along_x, along_y, along_z] = bricks;
-  for (int z = along_z.near; z <= along_z.far; ++z) {
-    for (int y = along_y.near; y <= along_y.far; ++y) {
-      for (int x = along_x.near; x <= along_x.far; ++x) {
-        std::int32_t& place =
-            bricks_at_[static_cast<std::size_t>((z * brick_count_[1] + y) * brick_count_[0] + x)];
-        if (place < 0) {
-          place = static_cast<std::int32_t>(bricks_.size());
-          bricks_.push_back({first_brick_[2] + z, first_brick_[1] + y, first_brick_[0] + x});
-        }
+void TilePlan::need(int x, int y, int z) {
+  std::int32_t& place =
+      bricks_at_[static_cast<std::size_t>((z * brick_count_[1] + y) * brick_count_[0] + x)];
+  if (place < 0) {
+    place = static_cast<std::int32_t>(bricks_.size());
+    bricks_.push_back({first_brick_[2] + z, first_brick_[1] + y, first_brick_[0] + x});
+  }
+}
+
+void TilePlan::need(const SupportBricks& bricks) {
+  const int x = bricks.slot % brick_count_[0];
+  const int y = bricks.slot / brick_count_[0] % brick_count_[1];
+  const int z = bricks.slot / brick_count_[0] / brick_count_[1];
+  for (unsigned corner = 0; corner <= bricks.further; ++corner) {
+    if ((corner & ~bricks.further) == 0) {
+      need(x + static_cast<int>(corner & 1U), y + static_cast<int>(corner >> 1U & 1U),
+           z + static_cast<int>(corner >> 2U));
+    }
+  }
+}
+
+void TilePlan::need_linear() {
+  paths_.reserve(rows_.size());
+  std::vector<bool> seen(bricks_at_.size() << SupportBricks::kAxisBits);
+  std::array<std::int32_t, kMostPixels + kRoomPixels> found;
+  for (const PictureRow& row : rows_) {
+    const int count = row.inside.last - row.inside.first;
+    paths_.push_back(count > 0 ? path_of(row) : RowPath());
+    const std::size_t total = count > 0 ? find_bricks(paths_.back(), count, found.data()) : 0;
+    for (std::size_t i = 0; i < total; ++i) {
+      const auto number = static_cast<std::size_t>(found[i]);
+      if (!seen[number]) {
+        seen[number] = true;
+        need(SupportBricks::of(found[i]));
       }
     }
   }
 }
 
-void TilePlan::need_linear(const PictureRow& row, RunFinder& finder) {
-  first_run_.push_back(runs_.size());
-  if (row.inside.first == row.inside.last) {
-    paths_.emplace_back();
-    return;
-  }
-  paths_.push_back(path_of(row));
-  finder.find(paths_.back(), row.inside.last - row.inside.first, runs_);
-  for (std::size_t i = first_run_.back(); i < runs_.size(); ++i) {
-    need(runs_[i].bricks);
-  }
-}
-
 void TilePlan::need_supports(const PictureRow& row) {
-  std::array<BrickPair, 3> before{{{-1, -1}, {-1, -1}, {-1, -1}}};
+  using Range = std::array<int, 2>;  // of bricks along an axis
+  std::array<Range, 3> before{{{-1, -1}, {-1, -1}, {-1, -1}}};
   for (int column = row.inside.first; column < row.inside.last; ++column) {
     const PixelSupport support = support_at(row, column);
-    std::array<BrickPair, 3> bricks;
+    std::array<Range, 3> bricks;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int middle = support.first[axis] + support_.below;
       const bool mixes = !row.on_centres[axis];
       bricks[axis] = {brick_of(axis, mixes ? support.first[axis] : middle),
                       brick_of(axis, mixes ? middle + support_.above : middle)};
     }
-    if (bricks != before) {
-      need(bricks);
-      before = bricks;
+    if (bricks == before) {
+      continue;
+    }
+    before = bricks;
+    const auto& [along_x, along_y, along_z] = bricks;
+    for (int z = along_z[0]; z <= along_z[1]; ++z) {
+      for (int y = along_y[0]; y <= along_y[1]; ++y) {
+        for (int x = along_x[0]; x <= along_x[1]; ++x) {
+          need(x, y, z);
+        }
+      }
     }
   }
 }

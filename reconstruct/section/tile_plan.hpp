@@ -6,10 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/bricks/brick_runs.hpp"
 #include "reconstruct/bricks/brick_source.hpp"
+#include "reconstruct/bricks/row_path.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
-#include "reconstruct/bricks/texel_kernels.hpp"
 #include "reconstruct/bricks/voxel_places.hpp"
 #include "reconstruct/section/interpolation.hpp"
 #include "reconstruct/section/pixel_grid.hpp"
@@ -79,11 +78,8 @@ class TilePlan {
   /// where it is not needed.
   const std::vector<std::int32_t>& bricks_at() const { return bricks_at_; }
 
-  /// For linear: the way of row `i` of rows() through the box, and its runs.
+  /// For linear: the way of row `i` of rows() through the box.
   const RowPath& path(std::size_t i) const { return paths_[i]; }
-  std::span<const BrickRun> runs(std::size_t i) const {
-    return std::span(runs_).subspan(first_run_[i], first_run_[i + 1] - first_run_[i]);
-  }
 
   /// For nearest and cubic: one pixel's support, and where its voxels lie: x, y, z. The sum of the
   /// slots of a voxel's three places is its brick's slot, the sum of the offsets its place there.
@@ -95,9 +91,10 @@ class TilePlan {
  private:
   void set_box(Interpolation kind);
   RowPath path_of(const PictureRow& row) const;
-  void need_linear(const PictureRow& row, RunFinder& finder);
+  void need_linear();
+  void need(const SupportBricks& bricks);
   void need_supports(const PictureRow& row);
-  void need(const std::array<BrickPair, 3>& bricks);
+  void need(int x, int y, int z);
   int brick_of(std::size_t axis, int voxel) const;  // beyond the border: the border's
 
   Tile tile_;
@@ -112,8 +109,6 @@ class TilePlan {
   std::vector<ChunkIndex> bricks_;
   std::vector<PictureRow> rows_;
   std::vector<RowPath> paths_;
-  std::vector<BrickRun> runs_;          // of all rows
-  std::vector<std::size_t> first_run_;  // of a row; behind the last row's: how many there are
 };
 
 }  // namespace biotomy::reconstruct

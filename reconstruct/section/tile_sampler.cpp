@@ -7,58 +7,21 @@
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr std::size_t kPixelLevels = 4;
-constexpr std::size_t kPairLevels = 8;  // two texels of three, and two that mean nothing
-constexpr std::size_t kVectorBytes = 64;
-constexpr std::size_t kPixelsOfALine = 2;  // at least: a line of memory holds 4 × 4 texels
+constexpr std::size_t kColours = TexelBlocks::kColours;
+constexpr std::size_t kPairLevels = 8;     // two texels of three, and two that mean nothing
+constexpr std::size_t kSupportLevels = 4;  // of a texel for cubic: one means nothing
 
 std::size_t inside_count(const PictureRow& row) {
   return static_cast<std::size_t>(row.inside.last - row.inside.first);
 }
 
-/// The lines of memory that pixels lie in are asked for, so that they are there when it is the
-/// pixels' turn: a section has no pattern that the processor could foresee. (A template, because
-/// GCC takes a function that does nothing else for one without an effect.)
+/// Puts two texels side by side. One level more than a texel's is copied, to have whole words.
 template <typename Level>
-[[gnu::always_inline]] inline void prefetch(const PixelPlaces<Level>& pairs, std::size_t count) {
-  for (std::size_t i = 0; i < count; i += kPixelsOfALine) {
-    for (std::size_t j = 0; j < 2; ++j) {
-      const std::byte* upper = pairs.upper[j][i];
-      __builtin_prefetch(upper);
-      __builtin_prefetch(pairs.crosses ? pairs.lower[j][i] : upper + pairs.down);
-    }
-  }
+void copy_pair(const std::byte* left, const std::byte* right, std::byte* pair) {
+  constexpr std::size_t kTexel = kColours * sizeof(Level);
+  std::memcpy(pair, left, kTexel + sizeof(Level));
+  std::memcpy(pair + kTexel, right, kTexel + sizeof(Level));
 }
-
-/// Where parted pixels' pairs of texels are gathered: in a layer a pixel's two, one behind the
-/// other, and those of the layer below as many bytes behind them as the whole row's are.
-template <typename Level>
-class PartedPairs {
- public:
-  static constexpr std::size_t kPair = kPairLevels * sizeof(Level);
-
-  explicit PartedPairs(const PixelPlaces<Level>& row)
-      : down_(row.crosses ? 2 * kPair : static_cast<std::size_t>(row.down)),
-        in_a_band_(down_ == 0 ? kMostPixels : static_cast<unsigned>(down_ / (2 * kPair))) {}
-
-  std::size_t down() const { return down_; }
-
-  /// Of the upper pairs of a row's parted pixel.
-  std::size_t place(unsigned number) const {
-    const std::size_t band = number / in_a_band_;
-    const std::size_t within = number % in_a_band_;
-    return 2 * (band * down_ + within * kPair);
-  }
-
-  /// Room for the pairs of one pixel or more, and for a vector that begins with the last of them.
-  std::size_t bytes(unsigned count) const {
-    return place(count - 1) + down_ + kPair + kVectorBytes;
-  }
-
- private:
-  std::size_t down_;
-  unsigned in_a_band_;  // of upper pairs, until the lower ones of the first begin
-};
 
 }  // namespace
 
@@ -70,7 +33,7 @@ TileSampler<Level>::TileSampler(Interpolation kind, const std::array<Level, 3>& 
   }
 }
 
-// While a row is sampled the memory of the next is on its way.
+// While a row is sampled the next one's memory is on its way.
 template <typename Level>
 void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* const> bricks,
                               int first_row, cv::Mat& picture) {
@@ -88,11 +51,16 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
     }
   }
   const ColumnRange columns = plan.tile().columns;
-  resize(static_cast<std::size_t>(columns.last - columns.first));
+  grow(static_cast<std::size_t>(columns.last - columns.first));
   const std::vector<PictureRow>& rows = plan.rows();
   for (std::size_t i = 0; i <= rows.size(); ++i) {
+    PairLines<Level> ahead;
     if (i < rows.size()) {
       place_row(plan, i, places_[i % 2]);
+      ahead = lines_ahead(rows[i], places_[i % 2]);
+    }
+    if (i == 0 || inside_count(rows[i - 1]) == 0) {
+      ahead.ask(0, ahead.count());
     }
     if (i == 0) {
       continue;
@@ -101,7 +69,8 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
     auto* out = picture.ptr<Level>(row.row - first_row);
     paint(out + 3 * std::ptrdiff_t{columns.first}, row.inside.first - columns.first);
     if (inside_count(row) > 0) {
-      sample_row(plan, row, places_[(i - 1) % 2], out + 3 * std::ptrdiff_t{row.inside.first});
+      sample_row(plan, row, places_[(i - 1) % 2], ahead,
+                 out + 3 * std::ptrdiff_t{row.inside.first});
     }
     paint(out + 3 * std::ptrdiff_t{row.inside.last}, columns.last - row.inside.last);
   }
@@ -113,10 +82,27 @@ void TileSampler<Level>::paint(Level* rgb, int count) const {
 }
 
 template <typename Level>
-void TileSampler<Level>::resize(std::size_t width) {
-  row_.resize(kPixelLevels * (width + kRoomPixels));
+void TileSampler<Level>::grow(std::size_t width) {
+  if (row_.size() >= kColours * (width + kRoomPixels)) {
+    return;
+  }
+  row_.resize(kColours * (width + kRoomPixels));
   for (RowPlaces& places : places_) {
-    places.pairs.resize(width);
+    places.linear.resize(width);
+  }
+  constexpr std::size_t kPair = kPairLevels * sizeof(Level);
+  parted_row_.resize(row_.size());
+  parted_.resize(width);
+  parted_.crosses = true;
+  parted_texels_.resize(4 * kPair * (width + kRoomPixels));
+  const std::byte* place = parted_texels_.data();
+  for (std::size_t i = 0; i < width + kRoomPixels; ++i) {
+    for (auto* pairs : {&parted_.upper, &parted_.lower}) {
+      for (auto& row : *pairs) {
+        row[i] = place;
+        place += kPair;
+      }
+    }
   }
 }
 
@@ -131,7 +117,7 @@ void TileSampler<Level>::place_row(const TilePlan& plan, std::size_t number, Row
       place_supports<1>(plan, row, places);
       break;
     case Interpolation::linear:
-      place_runs(plan, number, places);
+      place_linear(plan, number, places);
       break;
     case Interpolation::cubic:
       place_supports<4>(plan, row, places);
@@ -140,130 +126,47 @@ void TileSampler<Level>::place_row(const TilePlan& plan, std::size_t number, Row
 }
 
 template <typename Level>
-void TileSampler<Level>::place_runs(const TilePlan& plan, std::size_t number,
-                                    RowPlaces& places) const {
+void TileSampler<Level>::place_linear(const TilePlan& plan, std::size_t number,
+                                      RowPlaces& places) const {
   const RowPath& path = plan.path(number);
-  const std::span<const BrickRun> runs = plan.runs(number);
+  const PictureRow& row = plan.rows()[number];
+  const std::size_t count = inside_count(row);
   places.straight.clear();
-  if (plan.rows()[number].is_straight() &&
-      std::none_of(runs.begin(), runs.end(), [](const BrickRun& run) { return run.parted; })) {
-    place_straight(plan, path, runs, places);
+  if (row.is_straight() && path.axes[0].is_inside(static_cast<int>(count))) {
+    place_straight(plan, path, count, places);
     return;
   }
-  PixelPlaces<Level>& pairs = places.pairs;
-  pairs.crosses =
-      path.axes[2].step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
-  pairs.down = path.axes[2].next * std::ptrdiff_t{path.layer_bytes};
-  reconstruct::place_runs(path, runs, bricks_.data(), pairs);
-  const auto count = static_cast<std::size_t>(runs.back().last);
-  places.parted.clear();
-  places.parted_pairs.resize(std::max(
-      places.parted_pairs.size(), PartedPairs<Level>(pairs).bytes(static_cast<unsigned>(count))));
-  for (const BrickRun& run : runs) {
-    if (run.parted) {
-      place_parted(plan, path, run, places);
-    }
-  }
-  prefetch(pairs, count);
-  // The kernels' vectors reach behind the last pixel: there stand places of texels.
-  for (auto* texels : {&pairs.upper, &pairs.lower}) {
-    for (auto& row : *texels) {
-      std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(count), kRoomPixels, row[count - 1]);
-    }
-  }
-}
-
-/// Finds the texels of a run's pixels. In the row's places stands where they will be gathered.
-template <typename Level>
-void TileSampler<Level>::place_parted(const TilePlan& plan, const RowPath& path,
-                                      const BrickRun& run, RowPlaces& places) const {
-  const TexelBlocks& blocks = plan.blocks();
-  const auto along = [&](std::size_t axis, int pixel) {
-    const TexelPair texels = texel_pair(path.axes[axis], run.bricks[axis], pixel);
-    return AxisPlaces{{blocks.along(axis, texels.near), blocks.along(axis, texels.far)},
-                      PixelPlaces<Level>::part(texels.part)};
-  };
-  std::array<std::array<int, 2>, 3> slots{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const BrickPair& bricks = run.bricks[axis];
-    const int stride = path.axes[axis].slot_stride;
-    slots[axis] = {bricks.near * stride, bricks.far * stride};
-  }
-  PartedTexels bricks{};
-  for (std::size_t corner = 0; corner < bricks.size(); ++corner) {
-    bricks[corner] = bricks_[static_cast<std::size_t>(
-        slots[0][corner % 2] + slots[1][corner / 2 % 2] + slots[2][corner / 4])];
-  }
-  PixelPlaces<Level>& pairs = places.pairs;
-  const PartedPairs<Level> gathered(pairs);
-  const bool stays_in_a_layer = path.axes[2].step == 0;
-  AxisPlaces z = along(2, run.first);
-  for (int pixel = run.first; pixel < run.last; ++pixel) {
-    const AxisPlaces x = along(0, pixel);
-    const AxisPlaces y = along(1, pixel);
-    if (!stays_in_a_layer) {
-      z = along(2, pixel);
-    }
-    const std::byte* const upper =
-        places.parted_pairs.data() + gathered.place(static_cast<unsigned>(places.parted.size()));
-    PartedTexels& texels = places.parted.emplace_back();
-    for (std::size_t corner = 0; corner < texels.size(); ++corner) {
-      texels[corner] = bricks[corner] +
-                       (x.offsets[corner % 2] + y.offsets[corner / 2 % 2] + z.offsets[corner / 4]);
-      __builtin_prefetch(texels[corner]);
-    }
-    const auto i = static_cast<std::size_t>(pixel);
-    for (std::size_t row = 0; row < 2; ++row) {
-      pairs.upper[row][i] = upper + row * gathered.kPair;
-      if (pairs.crosses) {
-        pairs.lower[row][i] = pairs.upper[row][i] + gathered.down();
-      }
-    }
-    pairs.x[i] = x.part;
-    pairs.y[i] = y.part;
-    pairs.z[i] = z.part;
-  }
-}
-
-/// As the kernel wants to find them. One level more than a texel's is copied, to have whole words:
-/// the next copy overwrites it, or it means nothing.
-template <typename Level>
-void TileSampler<Level>::gather_parted(RowPlaces& places) {
-  constexpr std::size_t kTexelLevels = 3;
-  const PartedPairs<Level> gathered(places.pairs);
-  for (unsigned i = 0; i < places.parted.size(); ++i) {
-    const PartedTexels& texels = places.parted[i];
-    std::byte* const upper = places.parted_pairs.data() + gathered.place(i);
-    for (std::size_t corner = 0; corner < texels.size(); ++corner) {
-      std::byte* const pair =
-          upper + corner / 4 * gathered.down() + corner / 2 % 2 * gathered.kPair;
-      std::memcpy(pair + corner % 2 * kTexelLevels * sizeof(Level), texels[corner],
-                  (kTexelLevels + 1) * sizeof(Level));
+  reconstruct::place_row(path, static_cast<int>(count), bricks_.data(), places.linear);
+  for (std::size_t i = 0; i < places.linear.parted_count; ++i) {
+    const PartedPixel& parted = places.linear.parted[i];
+    for (std::size_t j = 0; j < 2; ++j) {
+      __builtin_prefetch(parted.upper[j]);
+      __builtin_prefetch(parted.lower[j]);
     }
   }
 }
 
 template <typename Level>
 void TileSampler<Level>::place_straight(const TilePlan& plan, const RowPath& path,
-                                        std::span<const BrickRun> runs, RowPlaces& places) const {
+                                        std::size_t count, RowPlaces& places) const {
   constexpr std::size_t kBlock = TexelBlocks::kBlockLevels * sizeof(Level);
   const TexelBlocks& blocks = plan.blocks();
-  for (const BrickRun& run : runs) {
-    const auto& [x_bricks, y_bricks, z_bricks] = run.bricks;
-    const TexelPair y = texel_pair(path.axes[1], y_bricks, run.first);
-    const TexelPair z = texel_pair(path.axes[2], z_bricks, run.first);
-    const auto row = [&, along_x = x_bricks.near](int y_brick, int y_texel, int z_brick,
-                                                  int z_texel) {
-      return bricks_[static_cast<std::size_t>(path.slot(along_x, y_brick, z_brick))] +
+  const AxisPlace y(path.axes[1], 0);
+  const AxisPlace z(path.axes[2], 0);
+  places.straight_parts = {PixelPlaces<Level>::part(y.part), PixelPlaces<Level>::part(z.part)};
+  for (std::size_t pixel = 0; pixel < count;) {
+    const AxisPlace x(path.axes[0], static_cast<int>(pixel));
+    const auto row = [&](int y_brick, int y_texel, int z_brick, int z_texel) {
+      return bricks_[static_cast<std::size_t>(path.slot(x.near_brick, y_brick, z_brick))] +
              (blocks.along_y(y_texel) + blocks.along_z(z_texel));
     };
     StraightRun straight;
-    straight.upper = {row(y_bricks.near, y.near, z_bricks.near, z.near),
-                      row(y_bricks.far, y.far, z_bricks.near, z.near)};
-    straight.lower = {row(y_bricks.near, y.near, z_bricks.far, z.far),
-                      row(y_bricks.far, y.far, z_bricks.far, z.far)};
-    straight.first = static_cast<std::size_t>(texel_pair(path.axes[0], x_bricks, run.first).near);
-    straight.count = static_cast<std::size_t>(run.last - run.first);
+    straight.upper = {row(y.near_brick, y.near, z.near_brick, z.near),
+                      row(y.far_brick, y.far, z.near_brick, z.near)};
+    straight.lower = {row(y.near_brick, y.near, z.far_brick, z.far),
+                      row(y.far_brick, y.far, z.far_brick, z.far)};
+    straight.first = static_cast<std::size_t>(x.near);
+    straight.count = std::min(count - pixel, static_cast<std::size_t>(path.axes[0].side - x.near));
     const std::size_t last = straight.first + straight.count - 1;
     for (std::size_t block = straight.first / TexelBlocks::kSide;
          block <= last / TexelBlocks::kSide; ++block) {
@@ -272,8 +175,8 @@ void TileSampler<Level>::place_straight(const TilePlan& plan, const RowPath& pat
         __builtin_prefetch(rows[1] + block * kBlock);
       }
     }
+    pixel += straight.count;
     places.straight.push_back(straight);
-    places.straight_parts = {PixelPlaces<Level>::part(y.part), PixelPlaces<Level>::part(z.part)};
   }
 }
 
@@ -307,52 +210,96 @@ void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& 
 }
 
 template <typename Level>
+PairLines<Level> TileSampler<Level>::lines_ahead(const PictureRow& row,
+                                                 const RowPlaces& places) const {
+  const bool in_pairs = kind_ == Interpolation::linear && places.straight.empty();
+  return in_pairs ? PairLines<Level>(places.linear, inside_count(row)) : PairLines<Level>();
+}
+
+template <typename Level>
 void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places,
-                                    Level* rgb) {
+                                    const PairLines<Level>& ahead, Level* rgb) {
   if (!places.straight.empty()) {
     for (const StraightRun& run : places.straight) {
       mix_straight(run, places.straight_parts, rgb);
-      rgb += 3 * run.count;
+      rgb += kColours * run.count;
     }
     return;
   }
   switch (kind_) {
     case Interpolation::nearest:
-      take_nearest(places);
+      take_nearest(places, rgb);
       break;
     case Interpolation::linear:
-      gather_parted(places);
-      mix_linear(places.pairs, inside_count(row), row_.data());
+      mix_pairs(places.linear, inside_count(row), ahead, rgb);
       break;
     case Interpolation::cubic:
-      mix_supports(plan, row, places);
+      mix_supports(plan, row, places, rgb);
       break;
   }
-  pack_pixels(row_.data(), inside_count(row), rgb);
 }
 
 template <typename Level>
-void TileSampler<Level>::take_nearest(const RowPlaces& places) {
-  for (std::size_t i = 0; i < places.texels.size(); ++i) {
-    std::memcpy(row_.data() + kPixelLevels * i, places.texels[i], 3 * sizeof(Level));
+void TileSampler<Level>::mix_pairs(const PixelPlaces<Level>& places, std::size_t count,
+                                   const PairLines<Level>& ahead, Level* rgb) {
+  mix_linear(places, count, ahead, row_.data());
+  ahead.ask((count + kRoomPixels - 1) / kRoomPixels * kRoomPixels, ahead.count());
+  if (places.parted_count > 0) {
+    mix_parted(places);
+  }
+  std::copy_n(row_.begin(), kColours * count, rgb);
+}
+
+/// Once more those pixels of the row whose pairs are none.
+template <typename Level>
+void TileSampler<Level>::mix_parted(const PixelPlaces<Level>& places) {
+  constexpr std::size_t kPair = kPairLevels * sizeof(Level);
+  parted_.in_a_layer = places.in_a_layer;
+  std::byte* out = parted_texels_.data();
+  for (std::size_t i = 0; i < places.parted_count; ++i) {
+    const PartedPixel& right = places.parted[i];
+    const auto pixel = static_cast<std::size_t>(right.pixel);
+    for (std::size_t row = 0; row < 2; ++row) {
+      copy_pair<Level>(places.upper[row][pixel], right.upper[row], out + row * kPair);
+      copy_pair<Level>(places.below(row, pixel), right.lower[row], out + (2 + row) * kPair);
+    }
+    out += 4 * kPair;
+    parted_.x[i] = places.x[pixel];
+    parted_.y[i] = places.y[pixel];
+    parted_.z[i] = places.z[places.in_a_layer ? 0 : pixel];
+  }
+  mix_linear(parted_, places.parted_count, PairLines<Level>(), parted_row_.data());
+  for (std::size_t i = 0; i < places.parted_count; ++i) {
+    const auto pixel = static_cast<std::size_t>(places.parted[i].pixel);
+    std::copy_n(parted_row_.data() + kColours * i, kColours, row_.data() + kColours * pixel);
+  }
+}
+
+template <typename Level>
+void TileSampler<Level>::take_nearest(const RowPlaces& places, Level* rgb) {
+  for (const std::byte* texel : places.texels) {
+    std::memcpy(rgb, texel, kColours * sizeof(Level));
+    rgb += kColours;
   }
 }
 
 template <typename Level>
 void TileSampler<Level>::mix_supports(const TilePlan& plan, const PictureRow& row,
-                                      const RowPlaces& places) {
+                                      const RowPlaces& places, Level* rgb) const {
   constexpr std::size_t kTexels = 64;
-  std::array<Level, kTexels * kPixelLevels> support{};
+  std::array<Level, kTexels * kSupportLevels> support{};
   const std::byte* const* texel = places.texels.data();
   for (std::size_t i = 0; i < inside_count(row); ++i) {
     for (std::size_t j = 0; j < kTexels; ++j) {
-      std::memcpy(support.data() + kPixelLevels * j, *texel++, 3 * sizeof(Level));
+      std::memcpy(support.data() + kSupportLevels * j, *texel++, kColours * sizeof(Level));
     }
     std::array<float, 3> part = plan.support_at(row, row.inside.first + static_cast<int>(i)).part;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       part[axis] = row.on_centres[axis] ? 0.0F : part[axis];
     }
-    mix_cubic(support.data(), part, row_.data() + kPixelLevels * i);
+    std::array<Level, kSupportLevels> pixel{};
+    mix_cubic(support.data(), part, pixel.data());
+    std::copy_n(pixel.begin(), kColours, rgb + kColours * i);
   }
 }
 

@@ -28,39 +28,31 @@ class TileSampler {
             cv::Mat& picture);
 
  private:
-  /// The texels of a parted pixel's support, x fastest, then y, then z.
-  using PartedTexels = std::array<const std::byte*, 8>;
-
-  /// What one axis contributes to the places of a parted pixel's texels, and to their mixing.
-  struct AxisPlaces {
-    std::array<int, 2> offsets;  // of the near and the far texel in their bricks
-    typename PixelPlaces<Level>::Part part;
-  };
-
   /// Where a row's pixels lie.
   struct RowPlaces {
-    PixelPlaces<Level> pairs;
-    std::vector<PartedTexels> parted;     // of the runs that are parted, in the row's order
-    std::vector<std::byte> parted_pairs;  // where these are gathered, so that they can be mixed
-    std::vector<StraightRun> straight;    // of all pixels instead, where that can be
+    PixelPlaces<Level> linear;
+    std::vector<StraightRun> straight;  // of all pixels instead, where that can be
     StraightParts<Level> straight_parts;
     std::vector<const std::byte*> texels;  // nearest, cubic: of the supports of all pixels
   };
 
   void paint(Level* rgb, int count) const;
-  void resize(std::size_t width);
+  void grow(std::size_t width);
   void place_row(const TilePlan& plan, std::size_t number, RowPlaces& places);
-  void place_runs(const TilePlan& plan, std::size_t number, RowPlaces& places) const;
-  void place_parted(const TilePlan& plan, const RowPath& path, const BrickRun& run,
-                    RowPlaces& places) const;
-  static void gather_parted(RowPlaces& places);
-  void place_straight(const TilePlan& plan, const RowPath& path, std::span<const BrickRun> runs,
+  void place_linear(const TilePlan& plan, std::size_t number, RowPlaces& places) const;
+  void place_straight(const TilePlan& plan, const RowPath& path, std::size_t count,
                       RowPlaces& places) const;
   template <int width>
   void place_supports(const TilePlan& plan, const PictureRow& row, RowPlaces& places) const;
-  void sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places, Level* rgb);
-  void take_nearest(const RowPlaces& places);
-  void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places);
+  PairLines<Level> lines_ahead(const PictureRow& row, const RowPlaces& places) const;
+  void sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places,
+                  const PairLines<Level>& ahead, Level* rgb);
+  static void take_nearest(const RowPlaces& places, Level* rgb);
+  void mix_parted(const PixelPlaces<Level>& places);
+  void mix_pairs(const PixelPlaces<Level>& places, std::size_t count, const PairLines<Level>& ahead,
+                 Level* rgb);
+  void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places,
+                    Level* rgb) const;
 
   Interpolation kind_;
   std::vector<Level> background_;         // pixels of it
@@ -68,6 +60,9 @@ class TileSampler {
   std::vector<std::byte> fill_value_;
   std::array<RowPlaces, 2> places_;  // of a row, and of the next
   std::vector<Level> row_;           // pixels of the tile's columns
+  std::vector<std::byte> parted_texels_;
+  PixelPlaces<Level> parted_;  // of pixels whose pairs are gathered there
+  std::vector<Level> parted_row_;
 };
 
 }  // namespace biotomy::reconstruct

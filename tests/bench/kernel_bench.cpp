@@ -1,6 +1,6 @@
 // The innermost loops by themselves, with Google Benchmark: how fast one thread decodes a chunk
-// with each codec, takes its checksum and lays it out as a brick, finds a row's runs, places them
-// and mixes their pixels. Bytes a second are those of the decoded voxels, items are pixels.
+// with each codec, takes its checksum and lays it out as a brick, finds a row's bricks, places its
+// pixels and mixes them. Bytes a second are those of the decoded voxels, items are pixels.
 //
 //   kernel_bench [--benchmark_filter=decode] …
 
@@ -15,7 +15,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "reconstruct/bricks/brick_runs.hpp"
+#include "reconstruct/bricks/row_path.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/bricks/texel_kernels.hpp"
 #include "reconstruct/store/codecs.hpp"
@@ -102,23 +102,12 @@ class Row {
     path_.axes[2].step = 0;  // rows lie in a layer
     bricks_.assign(static_cast<std::size_t>(slot_stride), memory_.data());
     places_.resize(kPixels);
-    places_.down = path_.layer_bytes;
-    find();
-    place_runs(path_, runs_, bricks_.data(), places_);
-    // What is not placed, where runs are parted, is mixed with the others and read from somewhere.
-    for (auto& row : places_.upper) {
-      std::replace_if(
-          row.begin(), row.end(), [&](const std::byte* place) { return !is_inside(place); },
-          static_cast<const std::byte*>(memory_.data()));
-    }
+    place();
   }
 
-  void find() {
-    runs_.clear();
-    finder_.find(path_, kPixels, runs_);
-  }
-  void place() { place_runs(path_, runs_, bricks_.data(), spare_); }
-  void mix() { mix_linear(places_, kPixels, pixels_.data()); }
+  void find() { find_bricks(path_, kPixels, found_.data()); }
+  void place() { place_row(path_, kPixels, bricks_.data(), places_); }
+  void mix() { mix_linear(places_, kPixels, {}, pixels_.data()); }
 
   static constexpr int kPixels = kMostPixels;
 
@@ -126,26 +115,13 @@ class Row {
   static constexpr int kSide = 32;
   static constexpr int kBricks = 8;
 
-  bool is_inside(const std::byte* place) const {
-    return place >= memory_.data() &&
-           place < memory_.data() + blocks_.brick_bytes() - blocks_.layer_bytes();
-  }
-
-  static PixelPlaces<std::uint8_t> places() {
-    PixelPlaces<std::uint8_t> result;
-    result.resize(kPixels);
-    return result;
-  }
-
   TexelBlocks blocks_{{kSide, kSide, kSide}, 8};
   Bytes memory_ = Bytes(blocks_.brick_bytes() + TexelBlocks::slack());
   std::vector<const std::byte*> bricks_;
   RowPath path_;
-  RunFinder finder_;
-  std::vector<BrickRun> runs_;
+  std::vector<std::int32_t> found_ = std::vector<std::int32_t>(kPixels + kRoomPixels);
   PixelPlaces<std::uint8_t> places_;
-  PixelPlaces<std::uint8_t> spare_ = places();
-  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(4 * (kPixels + kRoomPixels));
+  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(3 * (kPixels + kRoomPixels));
 };
 
 void row_step(benchmark::State& state, void (Row::*step)()) {
@@ -171,8 +147,8 @@ int main(int argc, char** argv) {
   }
   benchmark::RegisterBenchmark("crc32c", checksum, crc32c);
   benchmark::RegisterBenchmark("lay_out", lay_out);
-  benchmark::RegisterBenchmark("row/find_runs", row_step, &Row::find);
-  benchmark::RegisterBenchmark("row/place_runs", row_step, &Row::place);
+  benchmark::RegisterBenchmark("row/find_bricks", row_step, &Row::find);
+  benchmark::RegisterBenchmark("row/place_row", row_step, &Row::place);
   benchmark::RegisterBenchmark("row/mix_linear", row_step, &Row::mix);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

@@ -15,7 +15,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reconstruct/bricks/brick_runs.hpp"
 #include "reconstruct/bricks/texel_blocks.hpp"
 #include "reconstruct/bricks/texel_kernels_scalar.hpp"
 #include "reconstruct/bricks/vector_targets.hpp"
@@ -93,51 +92,169 @@ struct NoisyBrick {
 };
 
 constexpr std::array<int, 3> kShape{6, 11, 13};
-// The room behind the last pixel belongs to the kernels.
-TYPED_TEST(TexelKernels, PlaceRunsAsTheScalarOnesDo) {
+
+/// How many bricks the box has that a path leads through.
+int slots_of(const RowPath& path) {
+  const auto& [x, y, z] = path.axes;
+  return path.slot(x.last / x.side, y.last / y.side, z.last / z.side) + 1;
+}
+
+/// A path through a box that makes a small table.
+RowPath random_short_path(int count, std::mt19937& random) {
+  for (;;) {
+    const RowPath path = tests::random_path(count, random);
+    if (slots_of(path) < 50'000) {
+      return path;
+    }
+  }
+}
+
+/// Bricks that are only told apart, each so far from the next that no place belongs to two.
+std::vector<const std::byte*> distant_bricks(int count) {
+  constexpr std::uintptr_t kFar = std::uintptr_t{1} << 32U;
+  std::vector<const std::byte*> bricks;
+  for (int slot = 1; slot <= count; ++slot) {
+    bricks.push_back(reinterpret_cast<const std::byte*>(static_cast<unsigned>(slot) * kFar));
+  }
+  return bricks;
+}
+
+template <typename Level>
+void expect_same_places(const PixelPlaces<Level>& got, const PixelPlaces<Level>& wanted,
+                        std::size_t count) {
+  ASSERT_EQ(got.crosses, wanted.crosses);
+  ASSERT_EQ(got.in_a_layer, wanted.in_a_layer);
+  ASSERT_EQ(got.down, wanted.down);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t row = 0; row < 2; ++row) {
+      ASSERT_EQ(got.upper[row][i], wanted.upper[row][i]) << i << " of " << count;
+      ASSERT_EQ(got.below(row, i), wanted.below(row, i)) << i << " of " << count;
+    }
+    ASSERT_EQ(got.x[i], wanted.x[i]);
+    ASSERT_EQ(got.y[i], wanted.y[i]);
+    if (i == 0 || !wanted.in_a_layer) {
+      ASSERT_EQ(got.z[i], wanted.z[i]);
+    }
+  }
+  ASSERT_EQ(got.parted_count, wanted.parted_count);
+  for (std::size_t i = 0; i < wanted.parted_count; ++i) {
+    ASSERT_EQ(got.parted[i].pixel, wanted.parted[i].pixel);
+    ASSERT_EQ(got.parted[i].upper, wanted.parted[i].upper);
+    ASSERT_EQ(got.parted[i].lower, wanted.parted[i].lower);
+  }
+}
+
+TYPED_TEST(TexelKernels, PlaceRowsAsTheScalarOnesDo) {
+  using Level = TypeParam;
+  std::size_t parted = 0;
+  std::array<int, 3> layers{};
+  for_each_vector_width([&] {
+    std::mt19937 random(2);
+    for (int round = 0; round < 8; ++round) {
+      for (int count = 1; count <= kMostPixels; ++count) {
+        const RowPath path = random_short_path(count, random);
+        const std::vector<const std::byte*> bricks = distant_bricks(slots_of(path));
+        PixelPlaces<Level> got;
+        got.resize(static_cast<std::size_t>(count));
+        PixelPlaces<Level> wanted = got;
+        place_row(path, count, bricks.data(), got);
+        scalar::place_row(path, count, bricks.data(), wanted);
+        expect_same_places(got, wanted, static_cast<std::size_t>(count));
+        if (testing::Test::HasFatalFailure()) {
+          return;
+        }
+        parted += wanted.parted_count;
+        layers[wanted.in_a_layer ? (wanted.crosses ? 1 : 0) : 2] += 1;
+      }
+    }
+  });
+  EXPECT_GT(parted, 10'000U);
+  for (const int rows : layers) {
+    EXPECT_GT(rows, 20);
+  }
+}
+
+// The table ends with the last pixel's brick: AddressSanitizer finds who looks further for what
+// stands in the room.
+TYPED_TEST(TexelKernels, LookUpNoBrickBehindTheLastPixels) {
   using Level = TypeParam;
   for_each_vector_width([] {
-    std::mt19937 random(2);
-    for (int count = 1; count <= kMostPixels; ++count) {
-      const RowPath path = tests::random_path(count, random);
-      std::vector<BrickRun> runs;
-      RunFinder().find(path, count, runs);
-      const auto& [x, y, z] = path.axes;
-      const ExactBytes memory(static_cast<std::size_t>(
-          path.slot(x.last / x.side, y.last / y.side, z.last / z.side) + 1));
-      std::vector<const std::byte*> bricks;  // only told apart
-      for (std::size_t slot = 0; slot < memory.size; ++slot) {
-        bricks.push_back(memory.bytes.get() + slot);
-      }
-      PixelPlaces<Level> got;
-      got.resize(static_cast<std::size_t>(count));
-      got.crosses = z.step == 0 && runs.front().bricks[2].near != runs.front().bricks[2].far;
-      PixelPlaces<Level> wanted = got;
-      place_runs(path, runs, bricks.data(), got);
-      scalar::place_runs(path, runs, bricks.data(), wanted);
-      for (const BrickRun& run : runs) {
-        for (int i = run.first; i < run.last && !run.parted; ++i) {
-          const auto pixel = static_cast<std::size_t>(i);
-          for (std::size_t row = 0; row < 2; ++row) {
-            ASSERT_EQ(got.upper[row][pixel], wanted.upper[row][pixel]) << i << " of " << count;
-            ASSERT_EQ(got.lower[row][pixel], wanted.lower[row][pixel]) << i << " of " << count;
-          }
-          ASSERT_EQ(got.x[pixel], wanted.x[pixel]);
-          ASSERT_EQ(got.y[pixel], wanted.y[pixel]);
-          ASSERT_EQ(got.z[pixel], wanted.z[pixel]);
-        }
-      }
+    RowPath path;
+    path.block_row_bytes = 64;
+    path.layer_bytes = 320;
+    for (RowAxis& axis : path.axes) {
+      axis.side = 4;
+      axis.last = 1000;
+    }
+    path.axes[0].step = path.axes[0].side << kFractionBits;
+    for (int count = 1; count < 40; ++count) {
+      const auto bricks = std::make_unique<const std::byte*[]>(static_cast<std::size_t>(count));
+      const std::vector<const std::byte*> distant = distant_bricks(count);
+      std::copy(distant.begin(), distant.end(), bricks.get());
+      PixelPlaces<Level> places;
+      places.resize(static_cast<std::size_t>(count));
+      place_row(path, count, bricks.get(), places);
+      const auto last = static_cast<std::size_t>(count) - 1;
+      ASSERT_EQ(places.upper[0][last], distant.back());
+      ASSERT_EQ(find_bricks(path, count, std::vector<std::int32_t>(64).data()),
+                static_cast<std::size_t>(count));
     }
   });
 }
 
+TEST(BricksOfARow, AreFoundAsTheScalarKernelFindsThem) {
+  std::size_t found = 0;
+  for_each_vector_width([&] {
+    std::mt19937 random(12);
+    for (int round = 0; round < 8; ++round) {
+      for (int count = 1; count <= kMostPixels; ++count) {
+        const RowPath path = tests::random_path(count, random);
+        std::vector<std::int32_t> got(static_cast<std::size_t>(count) + kRoomPixels);
+        std::vector<std::int32_t> wanted = got;
+        got.resize(find_bricks(path, count, got.data()));
+        wanted.resize(scalar::find_bricks(path, count, wanted.data()));
+        ASSERT_EQ(got, wanted) << count;
+        found += wanted.size();
+      }
+    }
+  });
+  EXPECT_GT(found, 10'000U);
+}
+
+TEST(BricksOfARow, AreThoseOfEachOfItsPixels) {
+  std::mt19937 random(13);
+  for (int count = 1; count <= kMostPixels; ++count) {
+    const RowPath path = tests::random_path(count, random);
+    std::vector<std::int32_t> found(static_cast<std::size_t>(count) + kRoomPixels);
+    found.resize(scalar::find_bricks(path, count, found.data()));
+    std::size_t at = 0;
+    for (int pixel = 0; pixel < count; ++pixel) {
+      SupportBricks bricks;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        const AxisPlace place(path.axes[axis], pixel);
+        bricks.slot += place.near_brick * path.axes[axis].slot_stride;
+        bricks.further |= place.far_brick != place.near_brick ? 1U << axis : 0U;
+      }
+      at += found[at] != bricks.number() ? 1 : 0;
+      ASSERT_LT(at, found.size());
+      ASSERT_EQ(found[at], bricks.number()) << pixel << " of " << count;
+    }
+    ASSERT_EQ(at, found.size() - 1);
+  }
+}
+
 /// Places of random texels of two bricks, with random parts, some at their ends.
+enum class Layers { of_one_brick, of_two, many };
+constexpr std::array kAllLayers{Layers::of_one_brick, Layers::of_two, Layers::many};
+
 template <typename Level>
 PixelPlaces<Level> random_places(const NoisyBrick<Level>& upper, const NoisyBrick<Level>& lower,
-                                 std::size_t count, bool crosses, std::mt19937& random) {
+                                 std::size_t count, Layers layers, std::mt19937& random) {
+  const bool crosses = layers != Layers::of_one_brick;
   PixelPlaces<Level> places;
   places.resize(count);
   places.crosses = crosses;
+  places.in_a_layer = layers != Layers::many;
   places.down = upper.blocks.layer_bytes();
   for (std::size_t i = 0; i < count + kRoomPixels; ++i) {
     const auto along = [&](std::size_t axis, int neighbours) {
@@ -166,10 +283,10 @@ struct Pixels {
   static constexpr Level kUntouched = 77;
   std::vector<Level> levels;
 
-  explicit Pixels(std::size_t count) : levels(4 * (count + kRoomPixels + 8), kUntouched) {}
+  explicit Pixels(std::size_t count) : levels(3 * (count + kRoomPixels + 8), kUntouched) {}
 
   bool is_untouched_behind(std::size_t count) const {
-    return std::all_of(levels.begin() + static_cast<std::ptrdiff_t>(4 * (count + kRoomPixels)),
+    return std::all_of(levels.begin() + static_cast<std::ptrdiff_t>(3 * (count + kRoomPixels)),
                        levels.end(), [](Level level) { return level == kUntouched; });
   }
 };
@@ -182,17 +299,14 @@ TYPED_TEST(TexelKernels, MixLinearlyAsTheScalarOnesDo) {
     const NoisyBrick<Level> upper(kShape, random);
     const NoisyBrick<Level> lower(kShape, random);
     for (std::size_t count = 1; count <= 300; count += count < 40 ? 1 : 13) {
-      for (const bool crosses : {false, true}) {
-        const PixelPlaces<Level> places = random_places(upper, lower, count, crosses, random);
+      for (const Layers layers : kAllLayers) {
+        const PixelPlaces<Level> places = random_places(upper, lower, count, layers, random);
         Pixels<Level> got(count);
         Pixels<Level> wanted(count);
-        mix_linear(places, count, got.levels.data());
-        scalar::mix_linear(places, count, wanted.levels.data());
-        for (std::size_t i = 0; i < count; ++i) {
-          for (std::size_t colour = 0; colour < 3; ++colour) {
-            ASSERT_LE(std::abs(got.levels[4 * i + colour] - wanted.levels[4 * i + colour]), kOff)
-                << "pixel " << i << " of " << count;
-          }
+        mix_linear(places, count, {}, got.levels.data());
+        scalar::mix_linear(places, count, {}, wanted.levels.data());
+        for (std::size_t i = 0; i < 3 * count; ++i) {
+          ASSERT_LE(std::abs(got.levels[i] - wanted.levels[i]), kOff) << i << " of " << count;
         }
         ASSERT_TRUE(got.is_untouched_behind(count));
       }
@@ -242,27 +356,27 @@ TYPED_TEST(TexelKernels, MixLinearlyWithinALevelOfExactArithmetic) {
     const NoisyBrick<Level> upper(kShape, random);
     const NoisyBrick<Level> lower(kShape, random);
     constexpr std::size_t kCount = 1000;
-    const double unit = sizeof(Level) == 1 ? 32768.0 : 1.0;
-    for (const bool crosses : {false, true}) {
-      const PixelPlaces<Level> places = random_places(upper, lower, kCount, crosses, random);
+    const double unit = sizeof(Level) == 1 ? 65536.0 : 1.0;
+    for (const Layers layers : kAllLayers) {
+      const PixelPlaces<Level> places = random_places(upper, lower, kCount, layers, random);
       Pixels<Level> got(kCount);
-      mix_linear(places, kCount, got.levels.data());
+      mix_linear(places, kCount, {}, got.levels.data());
       for (std::size_t i = 0; i < kCount; ++i) {
         for (int colour = 0; colour < 3; ++colour) {
           double sum = 0.0;
           for (std::size_t row = 0; row < 2; ++row) {
             for (int x = 0; x < 2; ++x) {
               const std::byte* above = places.upper[row][i];
-              const std::byte* below = crosses ? places.lower[row][i] : above + places.down;
-              const double z = places.z[i] / unit;
+              const std::byte* below = places.below(row, i);
+              const double z = places.z[places.in_a_layer ? 0 : i] / unit;
               const double y = places.y[i] / unit;
               const double weight_x = x == 0 ? 1.0 - places.x[i] / unit : places.x[i] / unit;
               sum += (row == 0 ? 1.0 - y : y) * weight_x *
-                     ((1.0 - z) * scalar::level_of<Level>(above, x, colour) +
-                      z * scalar::level_of<Level>(below, x, colour));
+                     ((1.0 - z) * scalar::level_at<Level>(above, 3 * x + colour) +
+                      z * scalar::level_at<Level>(below, 3 * x + colour));
             }
           }
-          ASSERT_NEAR(got.levels[4 * i + static_cast<std::size_t>(colour)], sum,
+          ASSERT_NEAR(got.levels[3 * i + static_cast<std::size_t>(colour)], sum,
                       0.5 + (sizeof(Level) == 1 ? 0.03 : 0.04));
         }
       }
@@ -276,16 +390,16 @@ TYPED_TEST(TexelKernels, GiveAVoxelsOwnColourAtItsCentre) {
     std::mt19937 random(5);
     const NoisyBrick<Level> brick(kShape, random);
     constexpr std::size_t kCount = 500;
-    PixelPlaces<Level> places = random_places(brick, brick, kCount, true, random);
+    PixelPlaces<Level> places = random_places(brick, brick, kCount, Layers::many, random);
     for (auto* parts : {&places.x, &places.y, &places.z}) {
       std::fill(parts->begin(), parts->end(), typename PixelPlaces<Level>::Part{0});
     }
     Pixels<Level> got(kCount);
-    mix_linear(places, kCount, got.levels.data());
+    mix_linear(places, kCount, {}, got.levels.data());
     for (std::size_t i = 0; i < kCount; ++i) {
       for (int colour = 0; colour < 3; ++colour) {
-        ASSERT_EQ(got.levels[4 * i + static_cast<std::size_t>(colour)],
-                  scalar::level_of<Level>(places.upper[0][i], 0, colour));
+        ASSERT_EQ(got.levels[3 * i + static_cast<std::size_t>(colour)],
+                  scalar::level_at<Level>(places.upper[0][i], colour));
       }
     }
   });
@@ -342,24 +456,6 @@ TYPED_TEST(TexelKernels, MixCubicallyAsTheScalarOnesAndExactArithmeticDo) {
   });
 }
 
-TYPED_TEST(TexelKernels, PackPixelsAndNothingElse) {
-  using Level = TypeParam;
-  for_each_vector_width([] {
-    std::mt19937 random(7);
-    for (std::size_t count = 0; count <= 200; ++count) {
-      const auto pixels = std::make_unique<Level[]>(4 * count);
-      for (std::size_t i = 0; i < 4 * count; ++i) {
-        pixels[i] = static_cast<Level>(random());
-      }
-      const auto rgb = std::make_unique<Level[]>(3 * count);
-      pack_pixels(pixels.get(), count, rgb.get());
-      for (std::size_t i = 0; i < 3 * count; ++i) {
-        ASSERT_EQ(rgb[i], pixels[i / 3 * 4 + i % 3]) << i << " of " << count;
-      }
-    }
-  });
-}
-
 TYPED_TEST(TexelKernels, ReadNothingBehindABricksSlack) {
   using Level = TypeParam;
   for_each_vector_width([] {
@@ -373,15 +469,16 @@ TYPED_TEST(TexelKernels, ReadNothingBehindABricksSlack) {
                                     brick.blocks.along_z(shape[0] - 1);
       PixelPlaces<Level> places;
       places.resize(5);
+      places.in_a_layer = true;
       for (auto& row : places.upper) {
         std::fill(row.begin(), row.end(), last);
       }
       Pixels<Level> got(5);
-      mix_linear(places, 5, got.levels.data());
+      mix_linear(places, 5, {}, got.levels.data());
       for (std::size_t i = 0; i < 5; ++i) {
         for (int colour = 0; colour < 3; ++colour) {
-          ASSERT_EQ(got.levels[4 * i + static_cast<std::size_t>(colour)],
-                    scalar::level_of<Level>(last, 0, colour));
+          ASSERT_EQ(got.levels[3 * i + static_cast<std::size_t>(colour)],
+                    scalar::level_at<Level>(last, colour));
         }
       }
     }

@@ -54,7 +54,7 @@ struct SourceThatFailsLater final : BrickSource {
 TEST(SamplerOfASourceThatFails, PassesOnWhatItThrowsWhileStripsAreBeingPlanned) {
   for (int round = 0; round < 5; ++round) {
     SourceThatFailsLater source;
-    source.volume.box = {{12000, 400, 2}, {10.0, 10.0, 10.0}};
+    source.volume.box = {{12000, 1200, 2}, {10.0, 10.0, 10.0}};
     source.volume.chunk_size = {2, 64, 64};
     const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 10.0});
     const PixelGrid grid = tests::grid_for(plane, source.volume.box, 10.0);
