@@ -23,7 +23,9 @@ using Positions = hn::CappedTag<std::int32_t, kRoomPixels>;
 using PositionVector = hn::Vec<Positions>;
 using PositionMask = hn::Mask<Positions>;
 
-/// Where a vector's pixels lie along one axis: what AxisPlace says of each.
+/// Where a vector's pixels lie along one axis: what AxisPlace says of each. (Made whole, as other
+/// structs of vectors: the constructor without arguments that GCC would add is, on ARM, not for the
+/// processor that the kernel is for.)
 struct AxisPlaces {
   PositionVector near_slot;
   PositionVector far_slot;
@@ -51,23 +53,22 @@ class AxisVectors {
   HWY_INLINE AxisPlaces at(PositionVector position) const {
     auto voxel = hn::Add(hn::ShiftRight<kFractionBits>(position), base_);
     auto next = next_;
-    AxisPlaces places;
-    places.part = position;
+    auto part = position;
     if constexpr (kBorder) {
       const auto inside = hn::Min(hn::Max(voxel, first_), last_);
       const auto mixes = hn::And(hn::Eq(voxel, inside), hn::Lt(voxel, last_));
       next = hn::IfThenElseZero(mixes, next);
-      places.part = hn::IfThenElseZero(mixes, position);
+      part = hn::IfThenElseZero(mixes, position);
       voxel = inside;
     }
     const auto brick = brick_of(voxel);
-    places.near = hn::Sub(voxel, hn::Mul(brick, side_));
-    places.near_slot = hn::Mul(brick, stride_);
-    const auto far = hn::Add(places.near, next);
-    places.parted = hn::Eq(far, side_);
-    places.far = hn::IfThenZeroElse(places.parted, far);
-    places.far_slot = hn::Add(places.near_slot, hn::IfThenElseZero(places.parted, stride_));
-    return places;
+    const auto near = hn::Sub(voxel, hn::Mul(brick, side_));
+    const auto near_slot = hn::Mul(brick, stride_);
+    const auto far = hn::Add(near, next);
+    const auto parted = hn::Eq(far, side_);
+    return {near_slot, hn::Add(near_slot, hn::IfThenElseZero(parted, stride_)),
+            near,      hn::IfThenZeroElse(parted, far),
+            part,      parted};
   }
 
  private:

@@ -57,18 +57,16 @@ HWY_INLINE auto load_pairs(const std::byte* const* upper, const std::byte* const
 struct EvenOdd {
   LevelVector even;
   LevelVector odd;
-
-  HWY_INLINE EvenOdd(LevelVector of_even, LevelVector of_odd) : even(of_even), odd(of_odd) {}
-
-  template <typename Pairs>
-  HWY_INLINE explicit EvenOdd(Pairs pairs) {
-    const Levels16 d;
-    const hn::Repartition<std::uint8_t, Levels16> d8;
-    const auto bytes = hn::BitCast(d8, pairs);
-    even = hn::BitCast(d, hn::InterleaveLower(d8, hn::Zero(d8), bytes));
-    odd = hn::BitCast(d, hn::InterleaveUpper(d8, hn::Zero(d8), bytes));
-  }
 };
+
+template <typename Pairs>
+HWY_INLINE EvenOdd levels_of(Pairs pairs) {
+  const Levels16 d;
+  const hn::Repartition<std::uint8_t, Levels16> d8;
+  const auto bytes = hn::BitCast(d8, pairs);
+  return {hn::BitCast(d, hn::InterleaveLower(d8, hn::Zero(d8), bytes)),
+          hn::BitCast(d, hn::InterleaveUpper(d8, hn::Zero(d8), bytes))};
+}
 
 /// How much of what two colours are mixed of is the second's, and the first's, in 2⁻¹⁶.
 template <typename Vector>
@@ -158,9 +156,9 @@ HWY_INLINE void mix_row(const PixelPlaces<std::uint8_t>& places, std::size_t cou
     const LevelParts z_odd = kInALayer ? same_z : LevelParts(kToOdd.of(part_z));
     const auto along_z = [&](std::size_t row) HWY_ATTR {
       const auto pairs = load_pairs<kPixelsAtOnce>(upper[row] + at, lower[row] + at, down);
-      const EvenOdd above(pairs.upper);
-      const EvenOdd below(pairs.lower);
-      return EvenOdd(z_even.mixed(above.even, below.even), z_odd.mixed(above.odd, below.odd));
+      const EvenOdd above = levels_of(pairs.upper);
+      const EvenOdd below = levels_of(pairs.lower);
+      return EvenOdd{z_even.mixed(above.even, below.even), z_odd.mixed(above.odd, below.odd)};
     };
     const EvenOdd here = along_z(0);
     const EvenOdd next = along_z(1);

@@ -293,7 +293,8 @@ TEST(TilePlan, FindsASupportsVoxelsAmongItsBricks) {
                                           static_cast<double>(planned.last(axis)));
           const int middle = support.first[axis] + plan.support().below;
           ASSERT_LE(std::abs(place + plan.support().shift - middle - 0.5), 0.5);
-          ASSERT_NEAR(place, std::floor(place) + support.part[axis], 1e-6);
+          // Of a pixel on a voxel's centre rounding may say that it lies just before the centre.
+          ASSERT_NEAR(std::remainder(place - support.part[axis], 1.0), 0.0, 1e-6);
           ASSERT_LT(support.part[axis], 1.0F);
           // The far corner of the support; where all pixels lie on centres, the voxel itself.
           voxel[axis] = std::clamp(middle + (row.on_centres[axis] ? 0 : plan.support().above), 0,
