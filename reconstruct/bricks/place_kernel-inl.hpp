@@ -111,6 +111,7 @@ enum class Layers {
 };
 
 /// A row's parted pixels, collected without a branch: nothing foretells which vectors have one.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): cleared for each row it would cost
 class PartedPixels {
  public:
   /// Those of a vector's pixels, of which the first is `first`. `near` and `far` are the slots of

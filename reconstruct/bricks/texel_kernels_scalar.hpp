@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -103,7 +104,7 @@ inline std::uint8_t narrowed(unsigned level) {
   return static_cast<std::uint8_t>((level + kHalfLevel) >> 8U);
 }
 inline std::uint16_t narrowed(float level) {
-  return static_cast<std::uint16_t>(level + 0.5F);
+  return static_cast<std::uint16_t>(std::floor(level + 0.5F));
 }
 
 template <typename Level>

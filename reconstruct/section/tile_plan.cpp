@@ -180,7 +180,7 @@ void TilePlan::need(const SupportBricks& bricks) {
 void TilePlan::need_linear() {
   paths_.reserve(rows_.size());
   std::vector<bool> seen(bricks_at_.size() << SupportBricks::kAxisBits);
-  std::array<std::int32_t, kMostPixels + kRoomPixels> found;
+  std::array<std::int32_t, kMostPixels + kRoomPixels> found{};
   for (const PictureRow& row : rows_) {
     const int count = row.inside.last - row.inside.first;
     paths_.push_back(count > 0 ? path_of(row) : RowPath());
@@ -200,7 +200,7 @@ void TilePlan::need_supports(const PictureRow& row) {
   std::array<Range, 3> before{{{-1, -1}, {-1, -1}, {-1, -1}}};
   for (int column = row.inside.first; column < row.inside.last; ++column) {
     const PixelSupport support = support_at(row, column);
-    std::array<Range, 3> bricks;
+    std::array<Range, 3> bricks{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int middle = support.first[axis] + support_.below;
       const bool mixes = !row.on_centres[axis];
