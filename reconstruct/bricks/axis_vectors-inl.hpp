@@ -6,7 +6,7 @@
 #define BIOTOMY_AXIS_VECTORS_INL
 #endif
 
-#include <cstddef>
+#include <algorithm>
 #include <cstdint>
 
 #include <hwy/highway.h>
@@ -40,15 +40,7 @@ struct AxisPlaces {
 template <bool kBorder>
 class AxisVectors {
  public:
-  HWY_INLINE explicit AxisVectors(const RowAxis& axis)
-      : base_(hn::Set(Positions(), axis.base)),
-        next_(hn::Set(Positions(), axis.next)),
-        side_(hn::Set(Positions(), axis.side)),
-        stride_(hn::Set(Positions(), axis.slot_stride)),
-        first_(hn::Set(Positions(), axis.first)),
-        last_(hn::Set(Positions(), axis.last)),
-        reciprocal_bits_(axis.side < kLongSide ? kBitsOfShortSides : kBitsOfLongSides),
-        reciprocal_(hn::Set(Positions(), ((1 << reciprocal_bits_) + axis.side - 1) / axis.side)) {}
+  HWY_INLINE explicit AxisVectors(const RowAxis& axis) : AxisVectors(axis, first_brick(axis)) {}
 
   HWY_INLINE AxisPlaces at(PositionVector position) const {
     auto voxel = hn::Add(hn::ShiftRight<kFractionBits>(position), base_);
@@ -61,9 +53,13 @@ class AxisVectors {
       part = hn::IfThenElseZero(mixes, position);
       voxel = inside;
     }
-    const auto brick = brick_of(voxel);
-    const auto near = hn::Sub(voxel, hn::Mul(brick, side_));
-    const auto near_slot = hn::Mul(brick, stride_);
+    // The product may be one brick short of the quotient: the remainder tells.
+    const auto estimate = hn::ShiftRight<kReciprocalBits>(hn::Mul(voxel, reciprocal_));
+    const auto remainder = hn::Sub(voxel, hn::Mul(estimate, side_));
+    const auto short_by_one = hn::Gt(remainder, last_texel_);
+    const auto near = hn::Sub(remainder, hn::IfThenElseZero(short_by_one, side_));
+    const auto brick = hn::Sub(estimate, hn::VecFromMask(Positions(), short_by_one));
+    const auto near_slot = hn::Add(hn::Mul(brick, stride_), slot_);
     const auto far = hn::Add(near, next);
     const auto parted = hn::Eq(far, side_);
     return {near_slot, hn::Add(near_slot, hn::IfThenElseZero(parted, stride_)),
@@ -72,24 +68,36 @@ class AxisVectors {
   }
 
  private:
-  /// voxel / side, as voxel · reciprocal / 2ᵇ. The reciprocal is less than 1 too large: that does
-  /// not matter while voxel · side < 2ᵇ. Voxels are counted from the first of the box's first
-  /// brick, in which some pixel lies, or its support: so they are below side + kMostVoxels + 6.
-  static constexpr int kLongSide = 512;
-  static constexpr int kBitsOfShortSides = 20;
-  static constexpr int kBitsOfLongSides = 28;
+  /// 1 / side in 2⁻²⁰, cut off. Voxels are counted from the row's first brick, so that they are
+  /// at most side + kMostVoxels + 1: products fit into 31 bits, whatever the side, and fall short
+  /// of the quotient by less than 1.
+  static constexpr int kReciprocalBits = 20;
 
-  HWY_INLINE PositionVector brick_of(PositionVector voxel) const {
-    return hn::ShiftRightSame(hn::Mul(voxel, reciprocal_), reciprocal_bits_);
+  /// The brick of the voxel before the row's first one along the axis, which rounding may reach;
+  /// beyond the border: the border's.
+  static int first_brick(const RowAxis& axis) {
+    return std::clamp(axis.base - 1, axis.first, axis.last) / axis.side;
   }
+
+  HWY_INLINE AxisVectors(const RowAxis& axis, int brick)
+      : base_(hn::Set(Positions(), axis.base - brick * axis.side)),
+        next_(hn::Set(Positions(), axis.next)),
+        side_(hn::Set(Positions(), axis.side)),
+        last_texel_(hn::Set(Positions(), axis.side - 1)),
+        slot_(hn::Set(Positions(), brick * axis.slot_stride)),
+        stride_(hn::Set(Positions(), axis.slot_stride)),
+        first_(hn::Set(Positions(), axis.first - brick * axis.side)),
+        last_(hn::Set(Positions(), axis.last - brick * axis.side)),
+        reciprocal_(hn::Set(Positions(), (1 << kReciprocalBits) / axis.side)) {}
 
   PositionVector base_;
   PositionVector next_;
   PositionVector side_;
+  PositionVector last_texel_;
+  PositionVector slot_;
   PositionVector stride_;
   PositionVector first_;
   PositionVector last_;
-  int reciprocal_bits_;
   PositionVector reciprocal_;
 };
 

@@ -46,7 +46,7 @@ cv::Size tile_size(const BrickSource& source, int level, const PixelGrid& grid) 
   const VoxelRow next = voxel_row(grid, source.level(level), 1);
   const std::array<int, 3> shape = source.brick_shape();
   cv::Size size(source.bits() == 16 ? kTileColumnsOf16Bits : kTileColumns, kTileRows);
-  for (; size.width > 1; size = {size.width / 2, std::max(size.height / 2, 1)}) {
+  for (; size.area() > 1; size = {std::max(size.width / 2, 1), std::max(size.height / 2, 1)}) {
     double bricks = 1.0;
     bool counts = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -221,6 +221,32 @@ TEST(BricksOfARow, AreFoundAsTheScalarKernelFindsThem) {
   EXPECT_GT(found, 10'000U);
 }
 
+// A tile's rows may lie far apart, where pixels are large and there is no coarser level.
+TEST(BricksOfARow, AreFoundFarFromTheBoxsFirst) {
+  for_each_vector_width([] {
+    std::mt19937 random(14);
+    for (int round = 0; round < 20; ++round) {
+      for (int count = 1; count <= kMostPixels; ++count) {
+        RowPath path = tests::random_path(count, random);
+        RowAxis& far = path.axes[random() % 3];
+        for (RowAxis& axis : path.axes) {
+          axis.slot_stride = &axis == &far ? 1 : 0;
+        }
+        far.side = random() % 2 == 0 ? far.side : 100 + static_cast<int>(random() % 100'000);
+        const int shift = static_cast<int>(random() % 4'000'000);
+        far.base += shift;
+        far.first += shift;
+        far.last += shift;
+        std::vector<std::int32_t> got(static_cast<std::size_t>(count) + kRoomPixels);
+        std::vector<std::int32_t> wanted = got;
+        got.resize(find_bricks(path, count, got.data()));
+        wanted.resize(scalar::find_bricks(path, count, wanted.data()));
+        ASSERT_EQ(got, wanted) << count << " pixels, bricks of " << far.side;
+      }
+    }
+  });
+}
+
 TEST(BricksOfARow, AreThoseOfEachOfItsPixels) {
   std::mt19937 random(13);
   for (int count = 1; count <= kMostPixels; ++count) {
