@@ -111,9 +111,11 @@ class AxisPositions {
         start_(hn::Set(Positions(), axis.start)),
         step_(hn::Set(Positions(), axis.step)) {}
 
+  HWY_INLINE PositionVector of(PositionVector pixels) const {
+    return hn::Add(hn::Mul(hn::Min(pixels, last_), step_), start_);
+  }
   HWY_INLINE PositionVector from(int first) const {
-    const auto pixels = hn::Min(hn::Add(pixels_, hn::Set(Positions(), first)), last_);
-    return hn::Add(hn::Mul(pixels, step_), start_);
+    return of(hn::Add(pixels_, hn::Set(Positions(), first)));
   }
 
  private:

@@ -6,8 +6,10 @@
 #define BIOTOMY_LINEAR_KERNEL_INL
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <hwy/highway.h>
 
@@ -108,7 +110,9 @@ constexpr Shuffle kToEven = spread(0, 0);
 constexpr Shuffle kToOdd = spread(1, 1);
 constexpr Shuffle kToBoth = spread(0, 1);
 
-/// R G B of pixels of four levels. `rgb` has room for four levels of the last one.
+constexpr std::size_t kStoredTooMuch = 4;  // levels behind the last pixel's
+
+/// R G B of pixels of four levels. Writes kStoredTooMuch levels more.
 template <typename D>
 HWY_INLINE void store_packed(hn::Vec<D> pixels, D d, std::uint8_t* rgb) {
   constexpr std::size_t kBytes = hn::MaxLanes(d);
@@ -148,8 +152,12 @@ HWY_INLINE void mix_row(const PixelPlaces<std::uint8_t>& places, std::size_t cou
     return hn::BitCast(d, hn::InterleaveLower(d64, hn::BitCast(d64, even), hn::BitCast(d64, odd)));
   };
   const LevelParts same_z(hn::Set(d, parts_z[0]));
+  constexpr std::size_t kLevels = 3 * kPixelsAtOnce;
+  std::uint8_t kept_back[kLevels + kStoredTooMuch];
   for (std::size_t at = 0; at < count; at += kPixelsAtOnce) {
     ahead.ask(at, at + kPixelsAtOnce);
+    const std::size_t levels_left = 3 * (count - at);
+    const bool fits = levels_left >= kLevels + kStoredTooMuch;
     const auto part_y = hn::LoadDup128(d, parts_y + at);
     const auto part_z = hn::LoadDup128(d, parts_z + at);
     const LevelParts z_even = kInALayer ? same_z : LevelParts(kToEven.of(part_z));
@@ -167,7 +175,11 @@ HWY_INLINE void mix_row(const PixelPlaces<std::uint8_t>& places, std::size_t cou
     const LevelParts x(kToBoth.of(hn::LoadDup128(d, parts_x + at)));
     const auto sum = x.mixed(both(even, odd), both(right_texel(even), right_texel(odd)));
     const auto rounded = hn::ShiftRight<kLevelShift>(hn::Add(sum, hn::Set(d, kHalfLevel)));
-    store_packed(hn::DemoteTo(d8, hn::BitCast(signed16, rounded)), d8, rgb + 3 * at);
+    store_packed(hn::DemoteTo(d8, hn::BitCast(signed16, rounded)), d8,
+                 fits ? rgb + 3 * at : kept_back);
+    if (!fits) {
+      std::memcpy(rgb + 3 * at, kept_back, std::min(levels_left, kLevels));
+    }
   }
 }
 
@@ -221,7 +233,14 @@ inline void mix_linear(const PixelPlaces<std::uint16_t>& places, std::size_t cou
     const auto left = y.mixed(along_z(0, 0), along_z(1, 0));
     const auto right = y.mixed(along_z(0, kRight), along_z(1, kRight));
     const auto sum = hn::Add(x.mixed(left, right), hn::Set(FourFloats(), 0.5F));
-    hn::StoreU(hn::DemoteTo(d16, hn::ConvertTo(d32, sum)), d16, rgb + 3 * i);
+    const auto levels = hn::DemoteTo(d16, hn::ConvertTo(d32, sum));
+    if (i + 1 < count) {
+      hn::StoreU(levels, d16, rgb + 3 * i);  // the fourth one belongs to the next pixel
+    } else {
+      std::uint16_t last[4];
+      hn::StoreU(levels, d16, last);
+      std::memcpy(rgb + 3 * i, last, 3 * sizeof *last);
+    }
   }
 }
 

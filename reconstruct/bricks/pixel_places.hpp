@@ -8,7 +8,7 @@
 
 namespace biotomy::reconstruct {
 
-/// Kernels work on whole vectors: so many places, and pixels, behind the last are read and written.
+/// Kernels work on whole vectors: so many places behind a row's last are read and written.
 inline constexpr std::size_t kRoomPixels = 16;
 
 /// A pixel whose pairs of texels are parted, as the right ones lie in the next brick along x.

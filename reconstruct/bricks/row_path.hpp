@@ -30,7 +30,7 @@ struct RowAxis {
   /// Whether pixels 0 to `count` - 1 lie in the volume with the voxels that they are mixed with.
   bool is_inside(int count) const {
     const auto [low, high] = std::minmax({voxel(0), voxel(count - 1)});
-    return low >= first && high < last;
+    return low >= first && high + next <= last;
   }
 };
 

@@ -17,9 +17,14 @@ namespace biotomy::reconstruct {
 // one pass the second half would wait for the first at every step, as addresses that a vector has
 // computed reach the loads through memory.
 
-/// Writes to `found` the number of SupportBricks of each pixel of the row, 0 to `count` - 1, that
-/// has not the same as the pixel before it; returns how many these are. There is room for `count`
-/// numbers and kRoomPixels behind them.
+/// Numbers that find_bricks may write at most: those of all pixels, and of the first and the last
+/// of each kRoomPixels of them once more. Behind them there is room for a vector.
+inline constexpr std::size_t kMostFound = kMostPixels + 2 * kRoomPixels;
+inline constexpr std::size_t kFoundRoom = kMostFound + kRoomPixels;
+
+/// Writes to `found`, which has kFoundRoom numbers, some of SupportBricks: the bricks that these
+/// tell are those of the pixels 0 to `count` - 1 of the row, and no others. A number may come more
+/// than once. Returns how many came.
 std::size_t find_bricks(const RowPath& path, int count, std::int32_t* found);
 
 /// Places the pixels 0 to `count` - 1 of a row. `bricks` are the box's, by slot: all that
@@ -35,9 +40,8 @@ inline constexpr int kHalfLevel = 128 + 4;
 
 /// Trilinear. Radius 1 voxel, support 2, order 1 (continuous). Within ±1 level of exact arithmetic,
 /// and exactly the voxel's own colour at a voxel's centre. With 8 bits the arithmetic is of 16-bit
-/// fixed point with 8 bits below a level and weights of 16 bits, with 16 bits it is float. Writes
-/// R G B, and has room for kRoomPixels pixels more; what it writes there means nothing. As many of
-/// the pixels `ahead` are asked for meanwhile.
+/// fixed point with 8 bits below a level and weights of 16 bits, with 16 bits it is float. No pixel
+/// is parted. Writes R G B. As many of the pixels `ahead` are asked for meanwhile.
 template <typename Level>
 void mix_linear(const PixelPlaces<Level>& places, std::size_t count, const PairLines<Level>& ahead,
                 Level* rgb);
@@ -60,7 +64,7 @@ struct StraightParts {
   typename PixelPlaces<Level>::Part z{};
 };
 
-/// Gives what mix_linear would in a fraction of the time, and needs no room.
+/// Gives what mix_linear would in a fraction of the time.
 template <typename Level>
 void mix_straight(const StraightRun& run, const StraightParts<Level>& parts, Level* rgb);
 

@@ -180,7 +180,7 @@ void TilePlan::need(const SupportBricks& bricks) {
 void TilePlan::need_linear() {
   paths_.reserve(rows_.size());
   std::vector<bool> seen(bricks_at_.size() << SupportBricks::kAxisBits);
-  std::array<std::int32_t, kMostPixels + kRoomPixels> found{};
+  std::array<std::int32_t, kFoundRoom> found{};
   for (const PictureRow& row : rows_) {
     const int count = row.inside.last - row.inside.first;
     paths_.push_back(count > 0 ? path_of(row) : RowPath());

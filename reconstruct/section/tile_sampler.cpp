@@ -8,19 +8,10 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr std::size_t kColours = TexelBlocks::kColours;
-constexpr std::size_t kPairLevels = 8;     // two texels of three, and two that mean nothing
 constexpr std::size_t kSupportLevels = 4;  // of a texel for cubic: one means nothing
 
 std::size_t inside_count(const PictureRow& row) {
   return static_cast<std::size_t>(row.inside.last - row.inside.first);
-}
-
-/// Puts two texels side by side. One level more than a texel's is copied, to have whole words.
-template <typename Level>
-void copy_pair(const std::byte* left, const std::byte* right, std::byte* pair) {
-  constexpr std::size_t kTexel = kColours * sizeof(Level);
-  std::memcpy(pair, left, kTexel + sizeof(Level));
-  std::memcpy(pair + kTexel, right, kTexel + sizeof(Level));
 }
 
 }  // namespace
@@ -51,7 +42,9 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
     }
   }
   const ColumnRange columns = plan.tile().columns;
-  grow(static_cast<std::size_t>(columns.last - columns.first));
+  for (RowPlaces& places : places_) {
+    places.linear.resize(static_cast<std::size_t>(columns.last - columns.first));
+  }
   const std::vector<PictureRow>& rows = plan.rows();
   for (std::size_t i = 0; i <= rows.size(); ++i) {
     PairLines<Level> ahead;
@@ -79,31 +72,6 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
 template <typename Level>
 void TileSampler<Level>::paint(Level* rgb, int count) const {
   std::copy_n(background_.begin(), 3 * count, rgb);
-}
-
-template <typename Level>
-void TileSampler<Level>::grow(std::size_t width) {
-  if (row_.size() >= kColours * (width + kRoomPixels)) {
-    return;
-  }
-  row_.resize(kColours * (width + kRoomPixels));
-  for (RowPlaces& places : places_) {
-    places.linear.resize(width);
-  }
-  constexpr std::size_t kPair = kPairLevels * sizeof(Level);
-  parted_row_.resize(row_.size());
-  parted_.resize(width);
-  parted_.crosses = true;
-  parted_texels_.resize(4 * kPair * (width + kRoomPixels));
-  const std::byte* place = parted_texels_.data();
-  for (std::size_t i = 0; i < width + kRoomPixels; ++i) {
-    for (auto* pairs : {&parted_.upper, &parted_.lower}) {
-      for (auto& row : *pairs) {
-        row[i] = place;
-        place += kPair;
-      }
-    }
-  }
 }
 
 template <typename Level>
@@ -240,39 +208,11 @@ void TileSampler<Level>::sample_row(const TilePlan& plan, const PictureRow& row,
 }
 
 template <typename Level>
-void TileSampler<Level>::mix_pairs(const PixelPlaces<Level>& places, std::size_t count,
+void TileSampler<Level>::mix_pairs(PixelPlaces<Level>& places, std::size_t count,
                                    const PairLines<Level>& ahead, Level* rgb) {
-  mix_linear(places, count, ahead, row_.data());
+  parted_pairs_.join(places);
+  mix_linear(places, count, ahead, rgb);
   ahead.ask((count + kRoomPixels - 1) / kRoomPixels * kRoomPixels, ahead.count());
-  if (places.parted_count > 0) {
-    mix_parted(places);
-  }
-  std::copy_n(row_.begin(), kColours * count, rgb);
-}
-
-/// Once more those pixels of the row whose pairs are none.
-template <typename Level>
-void TileSampler<Level>::mix_parted(const PixelPlaces<Level>& places) {
-  constexpr std::size_t kPair = kPairLevels * sizeof(Level);
-  parted_.in_a_layer = places.in_a_layer;
-  std::byte* out = parted_texels_.data();
-  for (std::size_t i = 0; i < places.parted_count; ++i) {
-    const PartedPixel& right = places.parted[i];
-    const auto pixel = static_cast<std::size_t>(right.pixel);
-    for (std::size_t row = 0; row < 2; ++row) {
-      copy_pair<Level>(places.upper[row][pixel], right.upper[row], out + row * kPair);
-      copy_pair<Level>(places.below(row, pixel), right.lower[row], out + (2 + row) * kPair);
-    }
-    out += 4 * kPair;
-    parted_.x[i] = places.x[pixel];
-    parted_.y[i] = places.y[pixel];
-    parted_.z[i] = places.z[places.in_a_layer ? 0 : pixel];
-  }
-  mix_linear(parted_, places.parted_count, PairLines<Level>(), parted_row_.data());
-  for (std::size_t i = 0; i < places.parted_count; ++i) {
-    const auto pixel = static_cast<std::size_t>(places.parted[i].pixel);
-    std::copy_n(parted_row_.data() + kColours * i, kColours, row_.data() + kColours * pixel);
-  }
 }
 
 template <typename Level>

@@ -9,6 +9,7 @@
 
 #include "reconstruct/bricks/texel_kernels.hpp"
 #include "reconstruct/section/interpolation.hpp"
+#include "reconstruct/section/parted_pairs.hpp"
 #include "reconstruct/section/tile_plan.hpp"
 
 namespace biotomy::reconstruct {
@@ -37,7 +38,6 @@ class TileSampler {
   };
 
   void paint(Level* rgb, int count) const;
-  void grow(std::size_t width);
   void place_row(const TilePlan& plan, std::size_t number, RowPlaces& places);
   void place_linear(const TilePlan& plan, std::size_t number, RowPlaces& places) const;
   void place_straight(const TilePlan& plan, const RowPath& path, std::size_t count,
@@ -48,8 +48,7 @@ class TileSampler {
   void sample_row(const TilePlan& plan, const PictureRow& row, RowPlaces& places,
                   const PairLines<Level>& ahead, Level* rgb);
   static void take_nearest(const RowPlaces& places, Level* rgb);
-  void mix_parted(const PixelPlaces<Level>& places);
-  void mix_pairs(const PixelPlaces<Level>& places, std::size_t count, const PairLines<Level>& ahead,
+  void mix_pairs(PixelPlaces<Level>& places, std::size_t count, const PairLines<Level>& ahead,
                  Level* rgb);
   void mix_supports(const TilePlan& plan, const PictureRow& row, const RowPlaces& places,
                     Level* rgb) const;
@@ -59,10 +58,7 @@ class TileSampler {
   std::vector<const std::byte*> bricks_;  // by slot of the tile's box
   std::vector<std::byte> fill_value_;
   std::array<RowPlaces, 2> places_;  // of a row, and of the next
-  std::vector<Level> row_;           // pixels of the tile's columns
-  std::vector<std::byte> parted_texels_;
-  PixelPlaces<Level> parted_;  // of pixels whose pairs are gathered there
-  std::vector<Level> parted_row_;
+  PartedPairs<Level> parted_pairs_;
 };
 
 }  // namespace biotomy::reconstruct

@@ -81,7 +81,7 @@ TEST(RowPath, IsInsideWhereAllItsPixelsAreWithTheirNextVoxels) {
       bool expected = true;
       for (int pixel = 0; pixel < count; ++pixel) {
         const Definition is(axis, pixel);
-        expected = expected && is.voxel == is.inside && is.voxel < axis.last;
+        expected = expected && is.voxel == is.inside && is.voxel + axis.next <= axis.last;
       }
       ASSERT_EQ(axis.is_inside(count), expected);
       (expected ? inside : outside) += 1;

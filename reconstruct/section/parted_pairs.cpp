@@ -1,0 +1,57 @@
+#include "reconstruct/section/parted_pairs.hpp"
+
+#include <cstdint>
+#include <cstring>
+
+#include "reconstruct/bricks/texel_blocks.hpp"
+
+namespace biotomy::reconstruct {
+namespace {
+
+/// One level more than a texel's is copied, to have whole words.
+template <typename Level>
+void copy_pair(const std::byte* left, const std::byte* right, std::byte* pair) {
+  constexpr std::size_t kTexel = TexelBlocks::kColours * sizeof(Level);
+  std::memcpy(pair, left, kTexel + sizeof(Level));
+  std::memcpy(pair + kTexel, right, kTexel + sizeof(Level));
+}
+
+}  // namespace
+
+// Pairs in the next layer have to lie as far behind the others as `places` says. Where that is not
+// far enough for those of all pixels, groups of the ones and of the others lie in turn.
+template <typename Level>
+void PartedPairs<Level>::join(PixelPlaces<Level>& places) {
+  constexpr std::size_t kPair = 8 * sizeof(Level);  // two texels, and two levels of no use
+  constexpr std::size_t kPixel = 2 * kPair;         // in a row and in the next
+  const std::size_t all = kPixel * places.parted_count;
+  const std::size_t down = places.crosses ? all : static_cast<std::size_t>(places.down);
+  const std::size_t group = down > 0 ? down / kPixel * kPixel : all;
+  if (texels_.size() < 2 * all + 2 * group + 2 * down) {
+    texels_.resize(2 * all + 2 * group + 2 * down);
+  }
+  std::byte* upper = texels_.data();
+  const std::byte* group_end = upper + group;
+  for (std::size_t i = 0; i < places.parted_count; ++i) {
+    if (upper == group_end) {
+      upper += 2 * down - group;
+      group_end = upper + group;
+    }
+    const PartedPixel& right = places.parted[i];
+    const auto pixel = static_cast<std::size_t>(right.pixel);
+    for (std::size_t row = 0; row < 2; ++row) {
+      std::byte* const lower = upper + down;
+      copy_pair<Level>(places.below(row, pixel), right.lower[row], lower);
+      copy_pair<Level>(places.upper[row][pixel], right.upper[row], upper);
+      places.lower[row][pixel] = lower;
+      places.upper[row][pixel] = upper;
+      upper += kPair;
+    }
+  }
+  places.parted_count = 0;
+}
+
+template class PartedPairs<std::uint8_t>;
+template class PartedPairs<std::uint16_t>;
+
+}  // namespace biotomy::reconstruct
