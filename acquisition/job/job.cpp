@@ -112,6 +112,7 @@ void Job::tick(TimePoint now) {
   look_at_lines(now);
   exchange(now);
   supervise(now);
+  hear_camera();
   hear_operator(now);
   go_on_by_itself(now);
   advance(now);
@@ -337,8 +338,12 @@ void Job::begin_rest(TimePoint now) {
 }
 
 void Job::note(const char* kind, const std::string& text) {
-  JobEventRow row{kind, to_string(state_), cycle_ ? cycle_->layer() : 0, text,
-                  utc_text(surroundings_.wall_clock())};
+  note(kind, text, surroundings_.wall_clock());
+}
+
+void Job::note(const char* kind, const std::string& text,
+               std::chrono::system_clock::time_point at) {
+  JobEventRow row{kind, to_string(state_), cycle_ ? cycle_->layer() : 0, text, utc_text(at)};
   if (keeper_) {
     keeper_->post([row = std::move(row)](SampleRecords& records) { records.record_event(row); });
   } else {
@@ -350,6 +355,13 @@ void Job::write_early_notes() {
   keeper_->post([rows = early_notes_.take()](SampleRecords& records) {
     for (const JobEventRow& row : rows) records.record_event(row);
   });
+}
+
+void Job::hear_camera() {
+  if (parts_.watched_camera == nullptr) return;
+  for (const WatchedCamera::Trouble& trouble : parts_.watched_camera->take_troubles()) {
+    note("recovery", trouble.sentence, trouble.at);
+  }
 }
 
 std::string Job::waiting_for() const {

@@ -28,6 +28,7 @@
 #include "acquisition/rig/parking.hpp"
 #include "acquisition/rig/stage_commands.hpp"
 #include "acquisition/rig/supervision.hpp"
+#include "acquisition/rig/watched_camera.hpp"
 #include "acquisition/settings/job_settings.hpp"
 #include "acquisition/worker.hpp"
 
@@ -45,6 +46,8 @@ struct JobParts {
   StatusBoard& board;
   /// The camera without any correction of its frames, for calibrations; null: `camera` itself.
   bridge::Camera* plain_camera = nullptr;
+  /// What both of them ask, for the journal; null: their troubles are only logged.
+  WatchedCamera* watched_camera = nullptr;
 };
 
 /// A job from its start to its end, moved on by `tick`: exchange the heartbeat, read the inputs,
@@ -75,6 +78,7 @@ class Job {
   void look_at_lines(TimePoint now);
   void exchange(TimePoint now);
   void supervise(TimePoint now);
+  void hear_camera();
   void hear_operator(TimePoint now);
   void hear(OperatorDesk::Request& request, TimePoint now);
   void answer_operator();
@@ -123,6 +127,7 @@ class Job {
   void add_to_alarm(const std::string& cause);
   void lamp_and_tower(bool tower);
   void note(const char* kind, const std::string& text);
+  void note(const char* kind, const std::string& text, std::chrono::system_clock::time_point at);
   void write_early_notes();
   std::string waiting_for() const;
 

@@ -217,7 +217,8 @@ int run_daemon(const Configuration& configuration) {
   const auto devices_stage = make_stage(configuration.stage);
   const auto lines = make_lines(configuration.lines);
   const auto devices_camera = make_camera(configuration.camera);
-  CorrectedCamera camera(*devices_camera, configuration.job.calibration);
+  WatchedCamera watched_camera(*devices_camera, std::chrono::system_clock::now);
+  CorrectedCamera camera(watched_camera, configuration.job.calibration);
   LinkCounts link;
   CountedStage stage(*devices_stage, link);
 
@@ -232,10 +233,11 @@ int run_daemon(const Configuration& configuration) {
                   log_warning("access", line);
                   desk.remark(line);
                 });
-  Job job(configuration.job,
-          {stage, *lines, camera, worker, volume_worker, desk, board, devices_camera.get()},
-          real_surroundings(),
-          take_over_earlier_run(plan.sample, utc_text(std::chrono::system_clock::now())));
+  Job job(
+      configuration.job,
+      {stage, *lines, camera, worker, volume_worker, desk, board, &watched_camera, &watched_camera},
+      real_surroundings(),
+      take_over_earlier_run(plan.sample, utc_text(std::chrono::system_clock::now())));
   AttemptWatch attempts(journal);
   const auto status = [&] {
     return status_json(*board.look(), {configuration.job.limits, attempts.last()});

@@ -189,6 +189,10 @@ void FakeCamera::apply(const bridge::CameraSettings& settings) {
 bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
   if (gone) throw DeviceError(DeviceError::Kind::disconnected, "camera: gone");
   ++captures;
+  if (late_frames > 0) {
+    --late_frames;
+    throw DeviceError(DeviceError::Kind::timeout, "camera: no packet in time");
+  }
   const double plane =
       lens_positions.empty() ? stage.status.column.value : 1e6 / lens_positions.back();
   const double defocus = std::abs(stage.status.ground_to.value - column_to_face_um - plane);
@@ -214,6 +218,7 @@ bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
   }
   frame.exposure = std::chrono::microseconds(10000);
   frame.gain = 1.0;
+  frame.remark = remark;
   return frame;
 }
 

@@ -97,6 +97,8 @@ struct FakeCamera : bridge::Camera {
   int width = 96;
   int height = 64;
   bool gone = false;
+  int late_frames = 0;                  ///< so many of the next frames do not arrive in time
+  std::string remark;                   ///< of its frames
   int black_frames = 0;                 ///< so many of the next frames are black
   std::optional<double> stuck_face_um;  ///< shows the face of this depth, whatever is ground
   bool frozen = false;                  ///< gives its last picture again, with a new number

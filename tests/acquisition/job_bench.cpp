@@ -57,10 +57,11 @@ JobBench::JobBench() {
 
 void JobBench::start_daemon() {
   job.reset();
-  job = std::make_unique<Job>(
-      settings,
-      JobParts{stage, lines, camera, *job_worker, volume_worker, desk, board, plain_camera},
-      surroundings, take_over_earlier_run(settings.plan.sample, "2026-11-01T00:00:00Z"));
+  job = std::make_unique<Job>(settings,
+                              JobParts{stage, lines, watched_camera, *job_worker, volume_worker,
+                                       desk, board, plain_camera, &watched_camera},
+                              surroundings,
+                              take_over_earlier_run(settings.plan.sample, "2026-11-01T00:00:00Z"));
   tick();
 }
 

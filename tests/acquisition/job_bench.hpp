@@ -22,6 +22,7 @@ struct JobBench {
   FakeStage stage;
   FakeLines lines;
   FakeCamera camera{stage};
+  acquisition::WatchedCamera watched_camera{camera, [this] { return surroundings.wall_clock(); }};
   bridge::Camera* plain_camera = nullptr;  ///< as in JobParts
   InlineWorker worker;
   acquisition::Worker* job_worker = &worker;  ///< the one that a job is given

@@ -87,6 +87,9 @@ RunJournal read_run_journal(const std::filesystem::path& journal) {
             .at = row.getColumn(0).getString(),
             .frame = std::stoull(row.getColumn(1).getString().substr(kTrial.size()))};
       });
+  run.no_frame_at =
+      rows<std::string>(database, "SELECT at FROM events WHERE text LIKE 'no frame: %' ORDER BY id",
+                        [](SQLite::Statement& row) { return row.getColumn(0).getString(); });
   run.alarms = rows<RunJournal::Alarm>(
       database, "SELECT at, state, text FROM events WHERE kind = 'alarm' ORDER BY id",
       [](SQLite::Statement& row) {

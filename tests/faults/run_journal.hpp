@@ -52,6 +52,7 @@ struct RunJournal {
   std::vector<Search> searches;
   std::vector<Trial> trials;
   std::vector<Alarm> alarms;
+  std::vector<std::string> no_frame_at;  ///< when the camera had been asked and gave none
 };
 
 /// Of a copy, so that what a killed daemon left is mended by the daemon and not by the reader. A

@@ -313,14 +313,24 @@ class Judge {
     match_searches();
     for (std::size_t i = 0; i < witness_.frames.size(); ++i) {
       const WitnessedFrame& frame = witness_.frames[i];
-      if (recorded_[i] || was_lost_by_a_stop(i)) continue;
+      if (recorded_[i] || was_lost_by_a_stop(i) || was_kept_by_the_camera(i)) continue;
       complaints_.add("frame ", frame.number, " of ", frame.at, ", of layer ",
                       layer_at(frame.face_um), ", has no record");
     }
   }
 
+  /// Where a frame came too late, or never, the journal says so; it was the last until then.
+  bool was_kept_by_the_camera(std::size_t place) const {
+    const std::string& at = witness_.frames[place].at;
+    const bool is_last = place + 1 == witness_.frames.size();
+    return std::any_of(journal_.no_frame_at.begin(), journal_.no_frame_at.end(),
+                       [&](const std::string& told) {
+                         return at <= told && (is_last || told <= witness_.frames[place + 1].at);
+                       });
+  }
+
   /// A search that a kill broke off is not recorded, and its last frame is lost, whatever it was
-  /// of; a camera that fails may keep the last frame of a search for itself.
+  /// of.
   bool was_lost_by_a_stop(std::size_t place) const {
     const WitnessedFrame& frame = witness_.frames[place];
     std::string next_recorded;
@@ -336,11 +346,7 @@ class Judge {
     };
     const bool killed = std::any_of(run_.kills.begin(), run_.kills.end(),
                                     [&](const Killed& kill) { return between(kill.at); });
-    if (!is_last) return killed && frame.column_moved_next;
-    return killed || std::any_of(journal_.alarms.begin(), journal_.alarms.end(),
-                                 [&](const RunJournal::Alarm& alarm) {
-                                   return between(alarm.at) && alarm.state == "focusing";
-                                 });
+    return killed && (is_last || frame.column_moved_next);
   }
 
   const FinishedRun& run_;

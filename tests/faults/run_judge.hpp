@@ -39,8 +39,8 @@ struct FinishedRun {
 /// - its photograph was taken of its own face, by the lamp's light, and shows what an undisturbed
 ///   run's layer shows, by far better than that layer's neighbours do;
 /// - every frame that the twin took, unless the camera streams, is in the journal: as an attempt,
-///   as a point of a focus search, or as a trial of the camera. A kill loses the frame on its way,
-///   and the record of the search that it breaks off.
+///   as a point of a focus search, as a trial of the camera, or as one that did not arrive. A kill
+///   loses the frame on its way, and the record of the search that it breaks off.
 std::vector<std::string> judge(const FinishedRun& run,
                                const std::filesystem::path& undisturbed_sample);
 

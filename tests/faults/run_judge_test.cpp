@@ -287,7 +287,8 @@ TEST_F(RunJudge, FindsFramesOfASearchThatAnAlarmBrokeOff) {
   run.take_frame(1);
   run.commit(1);
   run.make_from(2);
-  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of "), HasSubstr("frame 2 of ")));
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of "), HasSubstr("frame 2 of "),
+                                     HasSubstr("frame 3 of ")));
 }
 
 TEST_F(RunJudge, FindsASearchThatMeasuredWhatWasNotTaken) {
@@ -312,7 +313,7 @@ TEST_F(RunJudge, DoesNotAllowAKillTwoFrames) {
   EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of ")));
 }
 
-TEST_F(RunJudge, AllowsAnAlarmTheSearchThatItBrokeOffAndNoOtherFrame) {
+TEST_F(RunJudge, AllowsAnAlarmNoFrame) {
   run.grind(1);
   run.take_frame(1);
   run.alarm("focusing");
@@ -321,7 +322,18 @@ TEST_F(RunJudge, AllowsAnAlarmTheSearchThatItBrokeOffAndNoOtherFrame) {
   run.take_frame(1);
   run.commit(1);
   run.make_from(2);
-  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 2 of ")));
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of "), HasSubstr("frame 2 of ")));
+}
+
+TEST_F(RunJudge, AllowsTheCameraTheFrameThatItWasToldNotToHaveGiven) {
+  run.grind(1);
+  run.take_frame(1);
+  run.take_frame(1);
+  run.note("recovery", "no frame: camera: no packet in time");
+  run.take_frame(1);
+  run.commit(1);
+  run.make_from(2);
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of ")));
 }
 
 TEST_F(RunJudge, AllowsAPassThatAKillBrokeOffIfAWholeOneFollows) {

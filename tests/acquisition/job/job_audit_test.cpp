@@ -51,6 +51,24 @@ TEST_F(JobAudit, HasRemarksOfARunningJob) {
   EXPECT_THAT(events_of_kind("operator"), HasSubstr("refused 10.0.0.9: abort, no token"));
 }
 
+TEST_F(JobAudit, HasFramesThatDidNotArriveThoughTheNextOneDid) {
+  start_job();
+  ASSERT_TRUE(reach_committed(1)) << alarm();
+  camera.late_frames = 1;
+  ASSERT_TRUE(reach_committed(2)) << alarm();
+  EXPECT_EQ(events_of_kind("recovery").find("no frame: camera: no packet in time"),
+            events_of_kind("recovery").rfind("no frame: "));
+  EXPECT_THAT(events_of_kind("recovery"), HasSubstr("no frame: camera: no packet in time\n"));
+}
+
+TEST_F(JobAudit, HasWhatTheCameraWentThroughToGiveAFrame) {
+  start_job();
+  ASSERT_TRUE(reach_committed(1)) << alarm();
+  camera.remark = "camera: it was started anew";
+  ASSERT_TRUE(reach_committed(2)) << alarm();
+  EXPECT_THAT(events_of_kind("recovery"), HasSubstr("camera: it was started anew\n"));
+}
+
 TEST_F(JobAudit, ShowsWhyTheJobPausedByItself) {
   start_job();
   ASSERT_TRUE(reach_committed(1)) << alarm();
