@@ -24,11 +24,16 @@ template <typename Level>
 void PartedPairs<Level>::join(PixelPlaces<Level>& places) {
   constexpr std::size_t kPair = 8 * sizeof(Level);  // two texels, and two levels of no use
   constexpr std::size_t kPixel = 2 * kPair;         // in a row and in the next
+  if (places.parted_count == 0) {
+    return;
+  }
   const std::size_t all = kPixel * places.parted_count;
   const std::size_t down = places.crosses ? all : static_cast<std::size_t>(places.down);
   const std::size_t group = down > 0 ? down / kPixel * kPixel : all;
-  if (texels_.size() < 2 * all + 2 * group + 2 * down) {
-    texels_.resize(2 * all + 2 * group + 2 * down);
+  const std::size_t whole_groups = (all - 1) / group;
+  const std::size_t bytes = whole_groups * 2 * down + down + (all - whole_groups * group);
+  if (texels_.size() < bytes) {
+    texels_.resize(bytes);
   }
   std::byte* upper = texels_.data();
   const std::byte* group_end = upper + group;
@@ -43,8 +48,10 @@ void PartedPairs<Level>::join(PixelPlaces<Level>& places) {
       std::byte* const lower = upper + down;
       copy_pair<Level>(places.below(row, pixel), right.lower[row], lower);
       copy_pair<Level>(places.upper[row][pixel], right.upper[row], upper);
-      places.lower[row][pixel] = lower;
       places.upper[row][pixel] = upper;
+      if (places.crosses) {
+        places.lower[row][pixel] = lower;
+      }
       upper += kPair;
     }
   }

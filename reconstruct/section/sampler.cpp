@@ -72,6 +72,20 @@ std::array<Level, 3> levels_of(const Colour& colour) {
   return levels;
 }
 
+/// From the first to behind the last of `columns` that has a pixel of `rows` in the cuboid; of
+/// those columns that are seen by no row, none.
+ColumnRange columns_with_pixels(std::span<const PictureRow> rows, const ColumnRange& columns) {
+  ColumnRange seen{columns.last, columns.first};
+  for (const PictureRow& row : rows) {
+    const int first = std::max(row.inside.first, columns.first);
+    const int last = std::min(row.inside.last, columns.last);
+    if (first < last) {
+      seen = {std::min(seen.first, first), std::max(seen.last, last)};
+    }
+  }
+  return seen.first < seen.last ? seen : ColumnRange{columns.first, columns.first};
+}
+
 /// A level of the pyramid, and how much of it the picture takes: all of the finest one, into which
 /// so much of the next is mixed.
 struct LevelPart {
@@ -93,6 +107,7 @@ struct Strip {
   int first_row = 0;
   int last_row = 0;
   std::vector<TilePlan> tiles;
+  std::vector<Tile> outside;        ///< without any pixel in the cuboid, of any width
   std::vector<ChunkIndex> indices;  ///< of the bricks of all tiles, sorted, each once
   std::vector<TexelBrick> bricks;   ///< those, once they are fetched
 };
@@ -109,6 +124,7 @@ class PictureSampler {
         grid_(grid),
         kind_(kind),
         on_rows_(on_rows),
+        background_(background),
         levels_(level_parts(level_choice(source, grid.pixel, kind))),
         samplers_([kind, colour = levels_of<Level>(background)] {
           return TileSampler<Level>(kind, colour);
@@ -190,29 +206,52 @@ class PictureSampler {
            source_.capacity_bytes() / 2;
   }
 
-  Strip plan_strip(const LevelPart& from, const cv::Size& tile) {
-    Strip strip{from, next_row_, std::min(next_row_ + rows_, grid_.rows), {}, {}, {}};
-    std::vector<Tile> tiles;
-    for (int row = strip.first_row; row < strip.last_row; row += tile.height) {
-      for (int column = 0; column < grid_.columns; column += tile.width) {
-        tiles.push_back({{column, std::min(column + tile.width, grid_.columns)},
-                         row,
-                         std::min(row + tile.height, strip.last_row)});
-      }
-    }
+  std::vector<PictureRow> rows_of(const Strip& strip) const {
     std::vector<PictureRow> rows(static_cast<std::size_t>(strip.last_row - strip.first_row));
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i] = PictureRow(source_, from.level, grid_, strip.first_row + static_cast<int>(i));
+      rows[i] = PictureRow(source_, strip.from.level, grid_, strip.first_row + static_cast<int>(i));
+    }
+    return rows;
+  }
+
+  /// Cuts `rows`, which begin with row `first_row`, into tiles. Only those with a pixel in the
+  /// cuboid are given, to be planned; however wide a picture is, the others cost next to nothing.
+  std::vector<Tile> tiles_of(std::span<const PictureRow> rows, int first_row, const cv::Size& tile,
+                             std::vector<Tile>& outside) const {
+    const int last_row = first_row + static_cast<int>(rows.size());
+    const ColumnRange inside = columns_with_pixels(rows, {0, grid_.columns});
+    const int first = inside.first / tile.width * tile.width;
+    std::vector<Tile> tiles;
+    int column = first;
+    for (; column < inside.last; column += tile.width) {
+      const ColumnRange columns{column, std::min(column + tile.width, grid_.columns)};
+      const ColumnRange seen = columns_with_pixels(rows, columns);
+      (seen.first < seen.last ? tiles : outside).push_back({columns, first_row, last_row});
+    }
+    outside.push_back({{0, first}, first_row, last_row});
+    outside.push_back({{std::min(column, grid_.columns), grid_.columns}, first_row, last_row});
+    return tiles;
+  }
+
+  Strip plan_strip(const LevelPart& from, const cv::Size& tile) {
+    Strip strip{from, next_row_, std::min(next_row_ + rows_, grid_.rows), {}, {}, {}, {}};
+    const std::vector<PictureRow> rows = rows_of(strip);
+    const auto rows_from = [&](int first, int last) {
+      return std::span(rows).subspan(static_cast<std::size_t>(first - strip.first_row),
+                                     static_cast<std::size_t>(last - first));
+    };
+    std::vector<Tile> tiles;
+    for (int row = strip.first_row; row < strip.last_row; row += tile.height) {
+      const auto band = rows_from(row, std::min(row + tile.height, strip.last_row));
+      const std::vector<Tile> of_band = tiles_of(band, row, tile, strip.outside);
+      tiles.insert(tiles.end(), of_band.begin(), of_band.end());
     }
     std::vector<std::optional<TilePlan>> plans(tiles.size());
     // A whole loop, also when the strip that is fetched meanwhile cannot be read.
     whole_loop(tiles.size(), [&](std::size_t i) {
       const auto start = Clock::now();
       const Tile& each = tiles[i];
-      plans[i].emplace(
-          source_, from.level, kind_, each,
-          std::span(rows).subspan(static_cast<std::size_t>(each.first_row - strip.first_row),
-                                  static_cast<std::size_t>(each.last_row - each.first_row)));
+      plans[i].emplace(source_, from.level, kind_, each, rows_from(each.first_row, each.last_row));
       count_time_since(start);
     });
     for (std::optional<TilePlan>& plan : plans) {
@@ -254,6 +293,12 @@ class PictureSampler {
   }
 
   void sample_tiles(const Strip& strip, int first_row, cv::Mat& picture) {
+    const std::array<Level, 3> colour = levels_of<Level>(background_);
+    for (const Tile& tile : strip.outside) {
+      picture(cv::Range(tile.first_row - first_row, tile.last_row - first_row),
+              cv::Range(tile.columns.first, tile.columns.last))
+          .setTo(cv::Scalar(colour[0], colour[1], colour[2]));
+    }
     tbb::parallel_for(std::size_t{0}, strip.tiles.size(), [&](std::size_t i) {
       const auto start = Clock::now();
       const TilePlan& plan = strip.tiles[i];
@@ -278,6 +323,7 @@ class PictureSampler {
   const PixelGrid& grid_;
   Interpolation kind_;
   const OnRows& on_rows_;
+  Colour background_;
   std::vector<LevelPart> levels_;
   std::size_t next_level_ = 0;  // among levels_, of the strip that is planned next
   int next_row_ = 0;

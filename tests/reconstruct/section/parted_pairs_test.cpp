@@ -76,7 +76,6 @@ struct NoisyRow {
 TYPED_TEST(PartedPairsTest, AreWholeOnceTheyAreJoined) {
   using Level = TypeParam;
   constexpr std::size_t kPair = 2 * kTexelLevels * sizeof(Level);
-  PartedPairs<Level> pairs;
   std::size_t parted = 0;
   for (std::size_t count = 1; count < 150; ++count) {
     for (const std::ptrdiff_t down : {0, 128, 188, 2112}) {
@@ -84,6 +83,7 @@ TYPED_TEST(PartedPairsTest, AreWholeOnceTheyAreJoined) {
         for (const bool crosses : {false, true}) {
           NoisyRow<Level> row(count, crosses, down, of_four);
           parted += row.places.parted_count;
+          PartedPairs<Level> pairs;  // whose memory is just what this row needs
           pairs.join(row.places);
           ASSERT_EQ(row.places.parted_count, 0U);
           for (std::size_t i = 0; i < count; ++i) {

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <sys/resource.h>
 
 #include "reconstruct/section/sampler.hpp"
 #include "tests/reconstruct/section/sampler_reference.hpp"
@@ -51,6 +53,29 @@ TEST(SamplerOfAPyramid, APixelOfTheSizeOfAVoxelStaysExactWhereThereIsAPyramid) {
     for (int u = 0; u < 40; ++u) {
       ASSERT_EQ(level_at(sampled.image, u, v, 1), source.voxel(u, v, 11, 1));
     }
+  }
+}
+
+std::int64_t peak_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+// Pixels so large that a tile is one pixel: a rectangle that anybody may ask for.
+TEST(SamplerOfAPyramid, PlansNothingForWhatLiesBesideTheBlock) {
+  MemorySource source;
+  source.pyramid = true;
+  source.voxel = [](int, int, int, int) { return 100; };
+  const ThetaRectangle rectangle{{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}}, 1e12, 0.0};
+  const PixelGrid grid{rectangle, 1e6, 1'000'000, 1};
+  const std::int64_t before = peak_bytes();
+  const SampledImage sampled = sample_grid(source, grid, Interpolation::linear, kBackground);
+  constexpr std::int64_t kPicture = 3'000'000;
+  EXPECT_LT(peak_bytes() - before, 10 * kPicture);
+  EXPECT_EQ(level_at(sampled.image, 0, 0, 1), 100);
+  for (const int column : {1, 255, 256, 500'000, 999'999}) {
+    ASSERT_EQ(level_at(sampled.image, column, 0, 1), kBackground[1]) << column;
   }
 }
 
