@@ -125,7 +125,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
                                           section.outline,
                                           section.image.size(),
                                           {0, 0},
-                                          reconstruct::levels_read(section.statistics),
+                                          section.statistics.levels,
                                           command_parameters(command)};
   start = Clock::now();
   reconstruct::write_section_image(arguments.output, section.image,

@@ -20,17 +20,16 @@ constexpr const char* kHeader = "Biotomy-Section";
 SectionRecord record_of(const PictureTask& task) {
   const reconstruct::PixelGrid& grid = task.outline.grid;
   const reconstruct::LevelChoice levels =
-      reconstruct::level_choice(task.view->bricks, grid.pixel, task.request.style.interpolation);
+      reconstruct::level_choice(task.view->bricks, grid, task.request.style.interpolation);
   const reconstruct::OpenedSample& sample = task.view->sample;
-  return {
-      sample.folder.description().name,
-      sample.volume.cuboid(),
-      task.request.plane,
-      task.outline,
-      {grid.columns, grid.rows},
-      {0, 0},
-      levels.part == 0.0 ? std::vector{levels.finer} : std::vector{levels.finer, levels.finer + 1},
-      task.parameters};
+  return {sample.folder.description().name,
+          sample.volume.cuboid(),
+          task.request.plane,
+          task.outline,
+          {grid.columns, grid.rows},
+          {0, 0},
+          levels.levels(),
+          task.parameters};
 }
 
 /// As SectionRecord's JSON, and what a page needs beside it.

@@ -96,7 +96,7 @@ struct LevelPart {
 std::vector<LevelPart> level_parts(const LevelChoice& choice) {
   std::vector<LevelPart> parts{{choice.finer, 1.0}};
   if (choice.part > 0.0) {
-    parts.push_back({choice.finer + 1, choice.part});
+    parts.push_back({choice.coarser, choice.part});
   }
   return parts;
 }
@@ -125,7 +125,7 @@ class PictureSampler {
         kind_(kind),
         on_rows_(on_rows),
         background_(background),
-        levels_(level_parts(level_choice(source, grid.pixel, kind))),
+        levels_(level_parts(level_choice(source, grid, kind))),
         samplers_([kind, colour = levels_of<Level>(background)] {
           return TileSampler<Level>(kind, colour);
         }) {}
@@ -164,8 +164,9 @@ class PictureSampler {
     count_touched();
     SampleStatistics statistics;
     statistics.chunks_touched = chunks_touched_;
-    statistics.finest_level = levels_.front().level;
-    statistics.levels = static_cast<int>(levels_.size());
+    for (const LevelPart& each : levels_) {
+      statistics.levels.push_back(each.level);
+    }
     statistics.sample_s = 1e-9 * static_cast<double>(sampling_ns_.load());
     return statistics;
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -17,8 +18,7 @@ using Colour = std::array<std::uint8_t, 3>;
 
 struct SampleStatistics {
   std::int64_t chunks_touched = 0;  ///< different ones
-  int finest_level = 0;             ///< of the pyramid that was read
-  int levels = 1;                   ///< how many from there on: 1 or 2
+  std::vector<int> levels;          ///< of the pyramid that were read: one or two, finest first
   double sample_s = 0.0;            ///< of planning and sampling, all threads' added up
 };
 

@@ -1,7 +1,6 @@
 #include "reconstruct/section/section_record.hpp"
 
 #include <cstddef>
-#include <numeric>
 
 #include "reconstruct/section/picture_affine.hpp"
 
@@ -24,12 +23,6 @@ ordered_json matrix_json(const Matrix& matrix) {
 }
 
 }  // namespace
-
-std::vector<int> levels_read(const SampleStatistics& statistics) {
-  std::vector<int> levels(static_cast<std::size_t>(statistics.levels));
-  std::iota(levels.begin(), levels.end(), statistics.finest_level);
-  return levels;
-}
 
 ordered_json to_json(const SectionRecord& record) {
   const PixelGrid& grid = record.outline.grid;

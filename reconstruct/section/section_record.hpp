@@ -24,9 +24,6 @@ struct SectionRecord {
   nlohmann::ordered_json parameters;  ///< what was asked for, as it was asked
 };
 
-/// The levels that a picture was sampled from.
-std::vector<int> levels_read(const SampleStatistics& statistics);
-
 /// The record as the sidecar file, the pictures' metadata and the HTTP API give it: `software`,
 /// `sample` (`name`, `size` in voxels, `spacing_um`), `plane` (`normal`, `offset_um`),
 /// `polygon_um` (vertices), `rectangle` (`origin_um`, `p`, `q`, `width_um`, `height_um`),

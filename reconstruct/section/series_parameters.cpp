@@ -69,7 +69,7 @@ PictureNotes frame_notes(const SeriesFrames& frames, std::size_t index, const st
   const std::optional<SectionOutline>& outline = frames.outline(index);
   if (!outline) return {frames.pixel(), sample, ""};
   return picture_notes({sample, cuboid, frames.series().frames[index].plane, *outline,
-                        frames.frame_size(), frames.first_pixel(index), levels_read(statistics),
+                        frames.frame_size(), frames.first_pixel(index), statistics.levels,
                         parameters});
 }
 

@@ -46,7 +46,7 @@ std::vector<ExportFile> make_section(const SectionQuery& query, const SampleView
                                           section.outline,
                                           section.image.size(),
                                           {0, 0},
-                                          reconstruct::levels_read(section.statistics),
+                                          section.statistics.levels,
                                           section_command_parameters(query)};
   const fs::path file = folder / ("section" + extension_of(format_of(query.format)));
   write_section_image(file, section.image, picture_notes(record),

@@ -183,12 +183,12 @@ TEST_P(VolumeWithATail, GivesTheSectionsOfTheVolumeThatHoldsTheSameLayers) {
             cut_section(live, asked, [&](std::int64_t done, std::int64_t total) {
               rows = {done, total};
             });
-        const std::int64_t all = std::int64_t{section.image.rows} * section.statistics.levels;
+        const std::int64_t all =
+            std::int64_t{section.image.rows} * std::ssize(section.statistics.levels);
         EXPECT_EQ(rows, (std::array<std::int64_t, 2>{all, all}));
         EXPECT_TRUE(same_pixels(section.image, cut_section(expected, asked).image))
             << normal.x << normal.y << normal.z << " " << pixel;
-        levels_read =
-            std::max(levels_read, section.statistics.finest_level + section.statistics.levels);
+        levels_read = std::max(levels_read, section.statistics.levels.back() + 1);
       }
     }
   }

@@ -47,11 +47,29 @@ TEST(SamplerOfAPyramid, APixelOfTheSizeOfAVoxelStaysExactWhereThereIsAPyramid) {
   const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 110});
   const SampledImage sampled =
       sample_grid(source, grid_for(plane, source.box, 10.0), Interpolation::linear, kBackground);
-  EXPECT_EQ(sampled.statistics.finest_level, 0);
-  EXPECT_EQ(sampled.statistics.levels, 1);
+  EXPECT_EQ(sampled.statistics.levels, std::vector{0});
   for (int v = 0; v < 30; ++v) {
     for (int u = 0; u < 40; ++u) {
       ASSERT_EQ(level_at(sampled.image, u, v, 1), source.voxel(u, v, 11, 1));
+    }
+  }
+}
+
+TEST(SamplerOfAPyramid, ALayerThinnerThanItsPixelsIsThatLayerToTheBit) {
+  for (const Interpolation kind :
+       {Interpolation::linear, Interpolation::nearest, Interpolation::cubic}) {
+    MemorySource source;
+    source.box.spacing = {20.0, 20.0, 10.0};
+    source.pyramid = true;
+    source.voxel = noise(source.box.size, 255, 24);
+    const Plane plane = Plane::from_normal({0, 0, 1}, {0, 0, 110});
+    const SampledImage sampled =
+        sample_grid(source, grid_for(plane, source.box, 20.0), kind, kBackground);
+    ASSERT_EQ(sampled.image.size(), cv::Size(40, 30));
+    for (int v = 0; v < 30; ++v) {
+      for (int u = 0; u < 40; ++u) {
+        ASSERT_EQ(level_at(sampled.image, u, v, 1), source.voxel(u, v, 11, 1));
+      }
     }
   }
 }
@@ -100,8 +118,7 @@ TEST(SamplerOfAPyramid, ASectionAlongALayerOfALevelIsThatLayerToTheBit) {
           columns,
           rows};
       const SampledImage sampled = sample_grid(source, grid, Interpolation::linear, kBackground);
-      EXPECT_EQ(sampled.statistics.finest_level, number);
-      EXPECT_EQ(sampled.statistics.levels, 1);
+      EXPECT_EQ(sampled.statistics.levels, std::vector{number});
       for (int v = 0; v < rows; ++v) {
         for (int u = 0; u < columns; ++u) {
           for (int c = 0; c < 3; ++c) {

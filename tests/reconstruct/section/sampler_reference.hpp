@@ -49,7 +49,7 @@ struct Reference {
   Interpolation kind = Interpolation::linear;
 
   /// Nothing where the point is outside of the cuboid.
-  std::optional<double> at(const Vector3& point, double pixel, int colour) const {
+  std::optional<double> at(const Vector3& point, const PixelGrid& grid, int colour) const {
     const Vector3 far = source.box.extent();
     const auto outside = [](double place, double last, double voxel) {
       return place < -1e-6 * voxel || place > last + 1e-6 * voxel;
@@ -59,11 +59,11 @@ struct Reference {
         outside(point.z, far.z, source.box.spacing.z)) {
       return std::nullopt;
     }
-    const LevelChoice levels = level_choice(source, pixel, kind);
+    const LevelChoice levels = level_choice(source, grid, kind);
     const double finer = in_level(levels.finer, point, colour);
     return levels.part == 0.0 ? finer
                               : (1.0 - levels.part) * finer +
-                                    levels.part * in_level(levels.finer + 1, point, colour);
+                                    levels.part * in_level(levels.coarser, point, colour);
   }
 
   double in_level(int number, const Vector3& point, int colour) const {
@@ -141,7 +141,7 @@ inline void compare(MemorySource& source, Interpolation kind, const PixelGrid& g
         continue;
       }
       for (int c = 0; c < 3; ++c) {
-        const std::optional<double> wanted = reference.at(point, grid.pixel, c);
+        const std::optional<double> wanted = reference.at(point, grid, c);
         const int level = level_at(image, u, v, c);
         if (!wanted) {
           ASSERT_EQ(level, kBackground[static_cast<std::size_t>(c)] * scale);

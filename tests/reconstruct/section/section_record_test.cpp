@@ -77,13 +77,5 @@ TEST(SectionRecord, IsOneLineOfAsciiInAPicture) {
   EXPECT_EQ(nlohmann::json::parse(notes.description).at("sample").at("name"), "Knie Ä");
 }
 
-TEST(SectionRecord, NamesTheLevelsThatWereRead) {
-  SampleStatistics statistics;
-  EXPECT_EQ(levels_read(statistics), std::vector<int>{0});
-  statistics.finest_level = 3;
-  statistics.levels = 2;
-  EXPECT_EQ(levels_read(statistics), (std::vector<int>{3, 4}));
-}
-
 }  // namespace
 }  // namespace biotomy::reconstruct
