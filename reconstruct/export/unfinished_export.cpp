@@ -11,6 +11,7 @@
 #include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/disk/folder_lock.hpp"
 #include "reconstruct/disk/folder_swap.hpp"
+#include "reconstruct/disk/free_place.hpp"
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::reconstruct {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 UnfinishedExport::UnfinishedExport(const fs::path& output)
     : output_(absolute_folder(output)),
       folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
-  refuse_if_taken();
+  check_place_is_free(output_);
   create_folders_durably(output_.parent_path());
   lock_ = make_locked_folder(
       folder_, output_.string() + ": another export of it is at work; wait for its end");
@@ -35,15 +36,6 @@ UnfinishedExport::~UnfinishedExport() {
   }
 }
 
-void UnfinishedExport::refuse_if_taken() const {
-  std::error_code error;
-  if (fs::exists(output_, error) &&
-      !(fs::is_directory(output_, error) && fs::is_empty(output_, error))) {
-    throw SampleError(output_.string() +
-                      ": is there already and not empty; choose another name or remove it");
-  }
-}
-
 void UnfinishedExport::finish() {
   // An export is thousands of small files: one sync of their file system is quicker than theirs.
   if (::syncfs(lock_.get()) != 0) {
@@ -52,7 +44,7 @@ void UnfinishedExport::finish() {
   std::error_code error;
   fs::rename(folder_, output_, error);
   if (error) {
-    refuse_if_taken();
+    check_place_is_free(output_);
     throw SampleError(output_.string() + ": cannot be given its name: " + error.message());
   }
   finished_ = true;

@@ -11,8 +11,8 @@ namespace biotomy::reconstruct {
 /// complete; removed when it does not come to that.
 class UnfinishedExport {
  public:
-  /// Throws SampleError when `output` is there and not an empty folder, when another program
-  /// exports to it, or when the folder cannot be made.
+  /// Throws SampleError when `output` is there and not an empty folder (or a link, or a mount
+  /// point), when another program exports to it, or when the folder cannot be made.
   explicit UnfinishedExport(const std::filesystem::path& output);
   ~UnfinishedExport();
   UnfinishedExport(const UnfinishedExport&) = delete;
@@ -24,8 +24,6 @@ class UnfinishedExport {
   void finish();
 
  private:
-  void refuse_if_taken() const;
-
   std::filesystem::path output_;
   std::filesystem::path folder_;
   FileDescriptor lock_;

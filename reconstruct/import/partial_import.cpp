@@ -8,13 +8,13 @@
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "reconstruct/absolute_folder.hpp"
 #include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/disk/folder_lock.hpp"
 #include "reconstruct/disk/folder_swap.hpp"
+#include "reconstruct/disk/free_place.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/import/import_request.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
@@ -28,13 +28,6 @@ using nlohmann::json;
 
 constexpr const char* kRequestName = "request.json";
 constexpr const char* kSampleName = "sample";
-
-bool is_mount_point(const fs::path& folder) {
-  struct stat here {};
-  struct stat above {};
-  return ::stat(folder.c_str(), &here) == 0 && ::stat(folder.parent_path().c_str(), &above) == 0 &&
-         here.st_dev != above.st_dev;
-}
 
 std::string file_of(const SampleFolder& sample, std::int64_t layer) {
   return sample.layer_path(layer).lexically_relative(sample.path()).string();
@@ -65,22 +58,14 @@ PartialImport::PartialImport(const fs::path& output, const SampleDescription& de
 }
 
 void PartialImport::refuse_if_taken() const {
-  std::error_code error;
-  // The finished sample takes the place of an empty folder by a rename, which these do not let
-  // happen.
-  if (fs::is_symlink(output_, error)) {
-    throw SampleError(output_.string() + ": is a symbolic link: name the folder that it leads to");
-  }
-  if (fs::exists(output_, error) && is_mount_point(output_)) {
-    throw SampleError(output_.string() + ": is a mount point: name a folder in it, or beside it");
-  }
-  if (fs::exists(output_, error) &&
-      !(fs::is_directory(output_, error) && fs::is_empty(output_, error))) {
+  try {
+    check_place_is_free(output_);
+  } catch (const SampleError&) {
+    std::error_code error;
     if (fs::exists(folder_ / kRequestName, error) && !fs::exists(folder_ / kSampleName, error)) {
       fs::remove_all(folder_, error);  // of the import that made the output and was then killed
     }
-    throw SampleError(output_.string() +
-                      ": is there already and not empty; choose another name or remove it");
+    throw;
   }
 }
 

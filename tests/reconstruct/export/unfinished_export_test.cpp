@@ -59,6 +59,14 @@ TEST_F(AnUnfinishedExport, TouchesNothingThatIsThere) {
   EXPECT_THAT(names_in(output_), ElementsAre("precious"));
 }
 
+TEST_F(AnUnfinishedExport, RefusesALinkBeforeAnythingIsWritten) {
+  std::filesystem::create_directory(folder_ / "empty");
+  std::filesystem::create_directory_symlink(folder_ / "empty", output_);
+  EXPECT_THAT(message_of<SampleError>([&] { UnfinishedExport refused(output_); }),
+              testing::HasSubstr("is a symbolic link"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("empty", "out"));
+}
+
 TEST_F(AnUnfinishedExport, NamesAFileThatCannotBeWritten) {
   const auto path = folder_ / "nowhere" / "a";
   EXPECT_THAT(message_of<SampleError>([&] { write_plainly(path, "x", 1); }),
