@@ -13,6 +13,7 @@
 #include "reconstruct/disk/folder_swap.hpp"
 #include "reconstruct/disk/free_place.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/import/partial_import.hpp"
 
 namespace biotomy::reconstruct {
 namespace fs = std::filesystem;
@@ -23,7 +24,13 @@ UnfinishedExport::UnfinishedExport(const fs::path& output)
   check_place_is_free(output_);
   create_folders_durably(output_.parent_path());
   lock_ = make_locked_folder(
-      folder_, output_.string() + ": another export of it is at work; wait for its end");
+      folder_,
+      output_.string() + ": an import or another export of it is at work; wait for its end");
+  if (holds_import(folder_)) {
+    throw SampleError(output_.string() + ": an interrupted import of it is kept in " +
+                      folder_.string() +
+                      ": choose another name, or let the same import go on, or remove that folder");
+  }
   for (const auto& entry : fs::directory_iterator(folder_)) {
     remove_folder(entry.path());  // of an export that was killed
   }

@@ -12,7 +12,8 @@ namespace biotomy::reconstruct {
 class UnfinishedExport {
  public:
   /// Throws SampleError when `output` is there and not an empty folder (or a link, or a mount
-  /// point), when another program exports to it, or when the folder cannot be made.
+  /// point), when another program exports to it, when an interrupted import of it is kept in the
+  /// folder, or when the folder cannot be made.
   explicit UnfinishedExport(const std::filesystem::path& output);
   ~UnfinishedExport();
   UnfinishedExport(const UnfinishedExport&) = delete;

@@ -35,13 +35,19 @@ std::string file_of(const SampleFolder& sample, std::int64_t layer) {
 
 }  // namespace
 
+bool holds_import(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / kRequestName, error) && fs::exists(folder / kSampleName, error);
+}
+
 PartialImport::PartialImport(const fs::path& output, const SampleDescription& description,
                              const json& asked, bool restart)
     : output_(absolute_folder(output)),
       folder_(output_.parent_path() / ("." + output_.filename().string() + ".partial")) {
   refuse_if_taken();
   lock_ = make_locked_folder(
-      folder_, output_.string() + ": another import of it is at work; wait for its end");
+      folder_,
+      output_.string() + ": an export or another import of it is at work; wait for its end");
   if (restart || !take_up(asked)) {
     try {
       begin(description, asked);
@@ -70,20 +76,19 @@ void PartialImport::refuse_if_taken() const {
 }
 
 bool PartialImport::take_up(const json& asked) {
-  std::ifstream in(folder_ / kRequestName, std::ios::binary);
-  std::error_code error;
-  if (!in || !fs::exists(folder_ / kSampleName, error)) {
+  if (!holds_import(folder_)) {
     return false;  // nothing was begun, or all was finished but the removal of this folder
   }
   json begun;
   try {
-    begun = json::parse(in);
+    begun = json::parse(std::ifstream(folder_ / kRequestName, std::ios::binary));
   } catch (const json::exception&) {
     throw SampleError((folder_ / kRequestName).string() +
                       ": is damaged; give --restart to begin anew");
   }
   sample_ = SampleFolder::open(folder_ / kSampleName);
   remove_unfinished_writes(sample_->path());
+  std::error_code error;
   if (fs::exists(hashes_path(), error)) {
     std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
     std::erase_if(hashes, [&](const LayerHash& each) {

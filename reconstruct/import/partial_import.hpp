@@ -13,6 +13,9 @@
 
 namespace biotomy::reconstruct {
 
+/// Whether a folder `.NAME.partial` is that of an import that can be taken up again.
+bool holds_import(const std::filesystem::path& folder);
+
 /// An import on its way: the folder `.NAME.partial` beside the output, in which there are
 /// `request.json` (what was asked), `layers.sha256` (the layers that are stored, in the order in
 /// which they were) and `sample/`, which becomes the output. All of it survives a crash, so that

@@ -67,6 +67,16 @@ TEST_F(AnUnfinishedExport, RefusesALinkBeforeAnythingIsWritten) {
   EXPECT_THAT(names(), testing::UnorderedElementsAre("empty", "out"));
 }
 
+TEST_F(AnUnfinishedExport, LeavesAnInterruptedImportAlone) {
+  const auto kept = folder_ / ".out.partial";
+  std::filesystem::create_directories(kept / "sample");
+  write_text(kept / "request.json", "{}");
+  EXPECT_THAT(
+      message_of<SampleError>([&] { UnfinishedExport refused(output_); }),
+      testing::AllOf(testing::HasSubstr("interrupted import"), testing::HasSubstr(kept.string())));
+  EXPECT_THAT(names_in(kept), testing::UnorderedElementsAre("request.json", "sample"));
+}
+
 TEST_F(AnUnfinishedExport, NamesAFileThatCannotBeWritten) {
   const auto path = folder_ / "nowhere" / "a";
   EXPECT_THAT(message_of<SampleError>([&] { write_plainly(path, "x", 1); }),
