@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -135,24 +136,38 @@ std::vector<cv::Mat> read_samples(const TiffFile& file, const Structure& structu
   return samples;
 }
 
-/// Turns to the one picture in the file, past smaller copies of it and masks.
+bool is_picture(const TiffFile& file) {
+  const auto kind = file.number<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0);
+  return (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0;
+}
+
+/// Turns to the one picture in the file, past smaller copies of it and masks. Goes from page to
+/// page: libtiff would begin at the first one for each that it is asked for by its number.
 void go_to_picture(const TiffFile& file) {
-  std::vector<tdir_t> pictures;
-  const tdir_t pages = TIFFNumberOfDirectories(file.get());
-  for (tdir_t page = 0; page < pages; ++page) {
-    if (TIFFSetDirectory(file.get(), page) == 0) {
-      file.fail("is damaged: its page " + std::to_string(page + 1) + " cannot be read");
+  std::optional<tdir_t> picture;
+  for (;;) {
+    if (is_picture(file)) {
+      if (picture) {
+        file.fail(
+            "holds more than one picture: split it into files of one picture each, numbered by "
+            "their layers");
+      }
+      picture = TIFFCurrentDirectory(file.get());
     }
-    const auto kind = file.number<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0);
-    if ((kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0) {
-      pictures.push_back(page);
+    if (TIFFLastDirectory(file.get()) != 0) {
+      break;
+    }
+    if (TIFFReadDirectory(file.get()) == 0) {
+      file.fail("is damaged: the page behind its page " +
+                std::to_string(TIFFCurrentDirectory(file.get()) + 1) + " cannot be read");
     }
   }
-  if (pictures.size() != 1) {
-    file.fail("holds " + std::to_string(pictures.size()) +
-              " pictures; expected one: split it into files, numbered by their layers");
+  if (!picture) {
+    file.fail("holds no picture, only smaller copies or masks of one");
   }
-  TIFFSetDirectory(file.get(), pictures.front());
+  if (*picture != TIFFCurrentDirectory(file.get()) && TIFFSetDirectory(file.get(), *picture) == 0) {
+    file.fail("is damaged: its page " + std::to_string(*picture + 1) + " cannot be read");
+  }
 }
 
 /// Of each pixel, those that the file declares to be no colours, as alpha is.

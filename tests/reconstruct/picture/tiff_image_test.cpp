@@ -1,5 +1,7 @@
 #include "reconstruct/picture/tiff_image.hpp"
 
+#include <chrono>
+
 #include <gmock/gmock.h>
 #include <tiffio.h>
 
@@ -45,6 +47,37 @@ void write_strips(const std::filesystem::path& path, const cv::Mat& rows, int wi
               1);
   }
   TIFFClose(tiff);
+}
+
+/// Pages of one pixel and of one kind, of which libtiff itself takes long to write
+/// many.
+void write_pages(const std::filesystem::path& path, std::uint32_t pages, std::uint16_t kind) {
+  constexpr std::uint32_t kHeader = 8;
+  constexpr std::uint32_t kPage = 2 + 5 * 12 + 4;
+  std::vector<std::byte> file;
+  const auto add = [&](auto number) {
+    for (std::size_t i = 0; i < sizeof(number); ++i) {
+      file.push_back(static_cast<std::byte>(number >> (8 * i)));
+    }
+  };
+  const auto add_tag = [&](std::uint16_t tag, std::uint32_t value) {
+    add(tag);
+    add(std::uint16_t{TIFF_LONG});
+    add(std::uint32_t{1});
+    add(value);
+  };
+  add(std::uint32_t{0x002A4949});
+  add(kHeader);
+  for (std::uint32_t page = 1; page <= pages; ++page) {
+    add(std::uint16_t{5});
+    add_tag(TIFFTAG_SUBFILETYPE, kind);
+    add_tag(TIFFTAG_IMAGEWIDTH, 1);
+    add_tag(TIFFTAG_IMAGELENGTH, 1);
+    add_tag(TIFFTAG_STRIPOFFSETS, kHeader);
+    add_tag(TIFFTAG_STRIPBYTECOUNTS, 1);
+    add(page < pages ? kHeader + page * kPage : 0);
+  }
+  write_file(path, file);
 }
 
 class TiffImage : public testing::Test {
@@ -100,7 +133,25 @@ TEST_F(TiffImage, RefusesAStackInOneFile) {
   write_strips(path_, test_image(3, 5), 3, 5, {});
   write_strips(path_, test_image(3, 5), 3, 5, {.mode = "a"});
   EXPECT_THAT(message_of<SampleError>([&] { read_tiff_image(path_); }),
-              testing::HasSubstr("holds 2 pictures"));
+              testing::AllOf(testing::HasSubstr("holds more than one picture"),
+                             testing::HasSubstr("split it into files")));
+}
+
+TEST_F(TiffImage, RefusesAFileOfSmallCopiesOnly) {
+  write_strips(path_, test_image(3, 5), 3, 5, {.subfile = FILETYPE_REDUCEDIMAGE});
+  EXPECT_THAT(message_of<SampleError>([&] { read_tiff_image(path_); }),
+              testing::HasSubstr("holds no picture"));
+}
+
+TEST_F(TiffImage, IsRefusedSoonHoweverManyPagesItHas) {
+  using std::chrono::steady_clock;
+  const auto start = steady_clock::now();
+  for (const std::uint16_t kind : {0, int{FILETYPE_REDUCEDIMAGE}}) {
+    write_pages(path_, 20'000, kind);
+    EXPECT_THAT(message_of<SampleError>([&] { read_tiff_image(path_); }),
+                testing::HasSubstr(kind == 0 ? "holds more than one" : "holds no picture"));
+  }
+  EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(10));  // once it was minutes
 }
 
 TEST_F(TiffImage, RefusesColoursThatAreCalledGrey) {
