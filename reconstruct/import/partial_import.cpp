@@ -90,14 +90,14 @@ bool PartialImport::take_up(const json& asked) {
   remove_unfinished_writes(sample_->path());
   std::error_code error;
   if (fs::exists(hashes_path(), error)) {
-    std::vector<LayerHash> hashes = read_layer_hashes(hashes_path());
+    std::vector<LayerHash> hashes = readable_layer_hashes(hashes_path());
     std::erase_if(hashes, [&](const LayerHash& each) {
       return !fs::exists(sample_->path() / each.file, error);  // its name did not reach the disk
     });
     for (const LayerHash& each : hashes) {
       stored_[each.file] = each.sha256;
     }
-    write_durably(hashes_path(), layer_hash_lines(hashes));  // without a line that was cut off
+    write_durably(hashes_path(), layer_hash_lines(hashes));  // without lines that were cut off
   }
   const auto stored = [this](std::int64_t layer) { return is_stored(layer); };
   if (const auto difference = import_difference(begun, asked, stored)) {

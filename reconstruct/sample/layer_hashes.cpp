@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kDigits = 64;
 constexpr std::string_view kBetween = "  ";  // the second space says: not as text
@@ -17,6 +20,28 @@ bool is_hexadecimal(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char letter) {
     return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'f');
   });
+}
+
+/// The lines that have their end.
+std::vector<std::string> whole_lines(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    throw SampleError(path.string() + ": cannot be opened");
+  }
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line) && !in.eof();) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::optional<LayerHash> parse_line(std::string_view line) {
+  const std::string_view hash = line.substr(0, kDigits);
+  if (line.size() <= kDigits + kBetween.size() || !is_hexadecimal(hash) ||
+      line.substr(kDigits, kBetween.size()) != kBetween) {
+    return std::nullopt;
+  }
+  return LayerHash{std::string(line.substr(kDigits + kBetween.size())), std::string(hash)};
 }
 
 }  // namespace
@@ -32,24 +57,25 @@ std::string layer_hash_lines(const std::vector<LayerHash>& hashes) {
   return lines;
 }
 
-std::vector<LayerHash> read_layer_hashes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    throw SampleError(path.string() + ": cannot be opened");
-  }
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+std::vector<LayerHash> read_layer_hashes(const fs::path& path) {
   std::vector<LayerHash> hashes;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
-    const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    const std::string_view hash = line.substr(0, std::min(kDigits, line.size()));
-    if (line.size() <= kDigits + kBetween.size() || !is_hexadecimal(hash) ||
-        line.substr(kDigits, kBetween.size()) != kBetween) {
+  for (const std::string& line : whole_lines(path)) {
+    auto hash = parse_line(line);
+    if (!hash) {
       throw SampleError(path.string() + ": line " + std::to_string(hashes.size() + 1) +
                         " is not a SHA-256 and a file name");
     }
-    hashes.push_back({std::string(line.substr(kDigits + kBetween.size())), std::string(hash)});
-    begin = end + 1;
+    hashes.push_back(*std::move(hash));
+  }
+  return hashes;
+}
+
+std::vector<LayerHash> readable_layer_hashes(const fs::path& path) {
+  std::vector<LayerHash> hashes;
+  for (const std::string& line : whole_lines(path)) {
+    if (auto hash = parse_line(line)) {
+      hashes.push_back(*std::move(hash));
+    }
   }
   return hashes;
 }

@@ -21,4 +21,7 @@ std::string layer_hash_lines(const std::vector<LayerHash>& hashes);
 /// and does not count. Throws SampleError, naming the file and the line.
 std::vector<LayerHash> read_layer_hashes(const std::filesystem::path& path);
 
+/// Likewise, but passes over lines that are none of those.
+std::vector<LayerHash> readable_layer_hashes(const std::filesystem::path& path);
+
 }  // namespace biotomy::reconstruct

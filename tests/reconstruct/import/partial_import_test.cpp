@@ -5,6 +5,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/import/import_request.hpp"
+#include "reconstruct/sample/layer_hashes.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
@@ -78,6 +79,18 @@ TEST_F(APartialImport, DoesNotCountALayerWhoseRecordWasCutOff) {
   }
   EXPECT_EQ(std::filesystem::file_size(hashes), size);
   EXPECT_EQ(take().stored_layers(), 1);
+}
+
+// On a full disk one record may be cut off and another, which was on its way, come behind it.
+TEST_F(APartialImport, DropsRecordsThatCannotBeRead) {
+  store(take(), 2);
+  const auto hashes = folder_ / "out" / ".knee.partial" / "layers.sha256";
+  write_text(hashes, kHash.substr(0, 20) + kHash + "  layers/000001.tif\n" + kHash +
+                         "  layers/000002.tif\n");
+  const PartialImport again = take();
+  EXPECT_FALSE(again.is_stored(1));
+  EXPECT_TRUE(again.is_stored(2));
+  EXPECT_EQ(read_layer_hashes(hashes).size(), 1U);
 }
 
 TEST_F(APartialImport, DoesNotCountALayerWhoseFileACrashTookAway) {
