@@ -94,6 +94,7 @@ class ImportWork {
   ImportWork& operator=(const ImportWork&) = delete;
 
   void run() {
+    take_back_what_is_not_stored();
     for (std::int64_t first = 0; first < images_.count(); first += volume_.band_depth()) {
       const std::int64_t count =
           std::min<std::int64_t>(volume_.band_depth(), images_.count() - first);
@@ -110,6 +111,19 @@ class ImportWork {
 
  private:
   void stop_if_asked() const { stop_here_if(stop_, "the import was interrupted"); }
+
+  /// A band goes into the volume while its layers' files still wait for the disk, and an import
+  /// that fails may leave it there without them. Such a layer is stored anew, perhaps of an image
+  /// that was replaced, and its band with it.
+  void take_back_what_is_not_stored() {
+    std::int64_t stored = 0;
+    while (stored < images_.count() && partial_.is_stored(stored + 1)) {
+      ++stored;
+    }
+    if (stored < images_.count()) {
+      volume_.take_back_to(stored);
+    }
+  }
 
   std::size_t images_in_flight() const {
     const std::size_t bytes = bands_in_memory() ? kBytesInFlightBesideABand : kBytesInFlight;

@@ -102,6 +102,14 @@ void VolumeWriter::write_group(std::int64_t layers_present) const {
   write_durably(volume_ / kMetadataName, group_metadata(metadata));
 }
 
+void VolumeWriter::take_back_to(std::int64_t layers) {
+  const std::int64_t kept = layers / band_depth() * band_depth();
+  if (kept < layers_written_) {
+    write_group(kept);
+    layers_written_ = kept;
+  }
+}
+
 void VolumeWriter::append_band(std::int64_t layer_count, const BandRegions& band) {
   const std::int64_t first = next_band();
   PyramidWriter(volume_, array_, factors_, every_shard_).write_band(first, layer_count, band);

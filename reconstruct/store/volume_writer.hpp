@@ -33,6 +33,9 @@ class VolumeWriter {
   /// layers_written() when the last band was incomplete, which is then written anew.
   std::int64_t next_band() const { return layers_written_ / band_depth() * band_depth(); }
 
+  /// Takes back the bands that hold layers behind the first `layers`: they are written anew.
+  void take_back_to(std::int64_t layers);
+
   /// Writes the next band, which has `layer_count` layers: band_depth(), or fewer at the deep end.
   void append_band(std::int64_t layer_count, const BandRegions& band);
 

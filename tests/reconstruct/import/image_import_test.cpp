@@ -9,6 +9,8 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
 #include "reconstruct/store/volume.hpp"
+#include "reconstruct/store/volume_verification.hpp"
+#include "tests/reconstruct/findings.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
@@ -152,6 +154,25 @@ TEST_F(ImageImport, MakesTheSameHoweverOftenItWasInterrupted) {
     }
     EXPECT_GT(interruptions, 1);
   }
+}
+
+TEST_F(ImageImport, PutsALayerIntoItsVolumeAnewWhenItsFileWasNotStored) {
+  save_layers(9);
+  request_.most_band_bytes = 0;  // so that the first bands are in the volume before image 9 is read
+  truncate_file(images_ / "9.png", 0.6);
+  EXPECT_THROW(import(), SampleError);
+  // As if the failure had come while the file was waiting for the disk.
+  const auto partial = folder_ / "out" / ".sample.partial";
+  auto hashes = read_layer_hashes(partial / "layers.sha256");
+  std::erase_if(hashes, [](const LayerHash& each) { return each.file == "layers/000002.tif"; });
+  ASSERT_EQ(hashes.size(), 7U);
+  write_text(partial / "layers.sha256", layer_hash_lines(hashes));
+  for (const int layer : {2, 9}) {
+    save_rgb(images_ / (std::to_string(layer) + ".png"), test_image(40, 30, CV_8UC3, 99));
+  }
+  HeardFindings heard(folder_.path());
+  verify_volume(import(), true, heard.listener());
+  EXPECT_THAT(heard.findings, testing::IsEmpty());
 }
 
 TEST_F(ImageImport, MakesTheSameAfterFaultsWhileLayersAreStored) {
