@@ -5,12 +5,21 @@
 namespace biotomy::reconstruct {
 
 WriteBehind::WriteBehind(std::size_t most_bytes, int threads) : most_bytes_(most_bytes) {
-  for (int i = 0; i < threads; ++i) {
-    threads_.emplace_back([this] { work(); });
+  try {
+    for (int i = 0; i < threads; ++i) {
+      threads_.emplace_back([this] { work(); });
+    }
+  } catch (...) {
+    stop();  // those that were started, for which no destructor runs
+    throw;
   }
 }
 
 WriteBehind::~WriteBehind() {
+  stop();
+}
+
+void WriteBehind::stop() {
   {
     const std::scoped_lock lock(mutex_);
     stopping_ = true;

@@ -37,6 +37,7 @@ class WriteBehind {
   };
 
   void work();
+  void stop();
 
   std::size_t most_bytes_;
   std::mutex mutex_;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <future>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace biotomy::reconstruct {
 namespace {
@@ -75,6 +78,22 @@ TEST(WriteBehind, WaitsForWhatWasBegunWhenItIsDestroyed) {
   }
   EXPECT_TRUE(stored);
   release.join();
+}
+
+// In a process of its own, whose address space has room for the stacks of a few threads only.
+TEST(WriteBehindDeathTest, ThrowsWhereNotAllThreadsCanBeStarted) {
+  const auto start_too_many = [] {
+    const rlimit room{rlim_t{1} << 30, rlim_t{1} << 30};
+    ::setrlimit(RLIMIT_AS, &room);
+    try {
+      const WriteBehind disk(1, 10'000);
+    } catch (const std::system_error&) {
+      std::_Exit(0);
+    }
+    std::_Exit(1);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(start_too_many(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
