@@ -4,10 +4,9 @@
 #include <cstring>
 #include <vector>
 
-#include <fcntl.h>
 #include <unistd.h>
 
-#include "reconstruct/disk/file_descriptor.hpp"
+#include "reconstruct/disk/regular_file.hpp"
 #include "reconstruct/disk/sha256_hash.hpp"
 #include "reconstruct/errors.hpp"
 
@@ -18,10 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kReadBlock = std::size_t{1} << 20;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
-  throw SampleError(path.string() + ": cannot " + what + ": " + std::strerror(error));
-}
-
 }  // namespace
 
 std::string sha256(std::span<const std::byte> bytes) {
@@ -31,10 +26,7 @@ std::string sha256(std::span<const std::byte> bytes) {
 }
 
 std::string sha256_of_file(const fs::path& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.is_open()) {
-    fail(path, "open it", errno);
-  }
+  const FileDescriptor file = open_regular_file(path);
   Sha256Hash hash;
   std::vector<std::byte> block(kReadBlock);
   for (;;) {
@@ -43,7 +35,7 @@ std::string sha256_of_file(const fs::path& path) {
       continue;
     }
     if (count < 0) {
-      fail(path, "read it", errno);
+      throw SampleError(path.string() + ": cannot read it: " + std::strerror(errno));
     }
     if (count == 0) {
       return hash.finish();

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "reconstruct/disk/regular_file.hpp"
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::reconstruct {
@@ -72,9 +73,14 @@ struct TiffFile::Report {
   std::filesystem::path path;
   std::string message;  // the first: those that follow are its consequences
   MemoryFile memory;
+  std::unique_ptr<TIFFOpenOptions, FreeOptions> options{TIFFOpenOptionsAlloc()};
 };
 
-TiffFile::TiffFile() : report_(std::make_shared<Report>()) {}
+TiffFile::TiffFile(const std::filesystem::path& path) : report_(std::make_shared<Report>()) {
+  report_->path = path;
+  TIFFOpenOptionsSetErrorHandlerExtR(report_->options.get(), keep_message, report_.get());
+  TIFFOpenOptionsSetWarningHandlerExtR(report_->options.get(), drop_message, nullptr);
+}
 
 int TiffFile::keep_message(TIFF* /*tiff*/, void* user_data, const char* /*module*/,
                            const char* format, va_list arguments) {
@@ -94,39 +100,34 @@ int TiffFile::drop_message(TIFF* /*tiff*/, void* /*user_data*/, const char* /*mo
 }
 
 TiffFile TiffFile::open(const std::filesystem::path& path) {
+  FileDescriptor descriptor = open_regular_file(path);
+  TiffFile file(path);
   // Not mapped ('m'): a page that the disk cannot give is then an error and not a SIGBUS.
-  return open_path(path, "rm", "cannot be opened as a TIFF");
+  file.tiff_.reset(
+      TIFFFdOpenExt(descriptor.get(), path.c_str(), "rm", file.report_->options.get()));
+  if (!file.tiff_) {
+    file.fail("cannot be opened as a TIFF");
+  }
+  descriptor.release();  // libtiff closes it
+  return file;
 }
 
 TiffFile TiffFile::create_on_disk(const std::filesystem::path& path, bool big) {
-  return open_path(path, big ? "wl8" : "wl", "cannot be started as a TIFF");
-}
-
-TiffFile TiffFile::open_path(const std::filesystem::path& path, const char* mode,
-                             const char* failure) {
-  TiffFile file;
-  file.report_->path = path;
-  const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, file.report_.get());
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_message, nullptr);
-  file.tiff_.reset(TIFFOpenExt(path.c_str(), mode, options.get()));
+  TiffFile file(path);
+  file.tiff_.reset(TIFFOpenExt(path.c_str(), big ? "wl8" : "wl", file.report_->options.get()));
   if (!file.tiff_) {
-    file.fail(failure);
+    file.fail("cannot be started as a TIFF");
   }
   return file;
 }
 
 TiffFile TiffFile::create(std::vector<std::byte>& memory, bool big,
                           const std::filesystem::path& path) {
-  TiffFile file;
-  file.report_->path = path;
+  TiffFile file(path);
   file.report_->memory.bytes = &memory;
-  const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, file.report_.get());
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_message, nullptr);
-  file.tiff_.reset(TIFFClientOpenExt(path.c_str(), big ? "wl8" : "wl", &file.report_->memory,
-                                     read_memory, write_memory, seek_memory, close_memory,
-                                     size_of_memory, nullptr, nullptr, options.get()));
+  file.tiff_.reset(TIFFClientOpenExt(
+      path.c_str(), big ? "wl8" : "wl", &file.report_->memory, read_memory, write_memory,
+      seek_memory, close_memory, size_of_memory, nullptr, nullptr, file.report_->options.get()));
   if (!file.tiff_) {
     file.fail("cannot be started as a TIFF");
   }

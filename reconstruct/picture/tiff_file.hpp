@@ -16,7 +16,7 @@ namespace biotomy::reconstruct {
 /// stderr. Not for two threads at once.
 class TiffFile {
  public:
-  /// Opens a file for reading. Throws SampleError.
+  /// Opens a regular file for reading. Throws SampleError.
   static TiffFile open(const std::filesystem::path& path);
 
   /// Starts a little-endian TIFF in `memory`; `path` is for messages only. The file is whole once
@@ -53,9 +53,7 @@ class TiffFile {
   struct Close {
     void operator()(TIFF* tiff) const { TIFFClose(tiff); }
   };
-  TiffFile();
-  static TiffFile open_path(const std::filesystem::path& path, const char* mode,
-                            const char* failure);
+  explicit TiffFile(const std::filesystem::path& path);
   static int keep_message(TIFF* tiff, void* user_data, const char* module, const char* format,
                           va_list arguments);
   static int drop_message(TIFF* tiff, void* user_data, const char* module, const char* format,

@@ -1,6 +1,7 @@
 #include "reconstruct/sample/layer_verification.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "reconstruct/disk/sha256.hpp"
 #include "tests/reconstruct/findings.hpp"
@@ -79,6 +80,16 @@ TEST_F(LayerVerification, DecodesFilesWithoutAnyRecordsAndSaysSo) {
   EXPECT_THAT(findings(), ElementsAre(HasSubstr("no records")));
   truncate_file(sample_.layer_path(2), 0.5);
   EXPECT_THAT(findings(), ElementsAre(HasSubstr("no records"), StartsWith("layers/000002.tif: ")));
+}
+
+TEST_F(LayerVerification, DoesNotWaitForAPipeInALayersPlace) {
+  const auto path = sample_.layer_path(2);
+  std::filesystem::remove(path);
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const auto no_file = AllOf(StartsWith("layers/000002.tif: "), HasSubstr("not a regular file"));
+  EXPECT_THAT(findings(), ElementsAre(no_file));
+  records_.clear();  // then it is decoded
+  EXPECT_THAT(findings(), ElementsAre(HasSubstr("no records"), no_file));
 }
 
 TEST_F(LayerVerification, PassesOverAFileThatWasNeverFinished) {
