@@ -157,15 +157,17 @@ class VolumeVerification {
   }
 
   void check_layers_present() {
-    std::int64_t files = 0;
+    std::int64_t files = 0;  // without a gap: a volume is made of no others
     std::error_code error;
     while (files < sample_.description().cuboid.size.z &&
            fs::exists(sample_.layer_path(files + 1), error)) {
       ++files;
     }
     const std::int64_t present = group_.layers_present;
-    const std::string counts = "holds " + std::to_string(present) + " layers and there are " +
-                               std::to_string(files) + " layer files";
+    const std::string counts =
+        "holds " + std::to_string(present) + " layers; " +
+        (files == 0 ? std::string("there is no layer file 1")
+                    : "layer files 1 to " + std::to_string(files) + " follow without a gap");
     const bool complete = files == sample_.description().cuboid.size.z;
     if (present > files || (complete && present < files) ||
         files - present >= arrays_.front().layout.shard[0]) {

@@ -124,7 +124,15 @@ TEST_F(VolumeVerification, FindsThatLayersAreNotInTheVolume) {
   HeardFindings heard(unfinished.path());
   verify_volume(unfinished, false, heard.listener());
   EXPECT_THAT(heard.findings, ElementsAre(AllOf(StartsWith("volume.ome.zarr: "),
-                                                HasSubstr("12 layers"), HasSubstr("15 layer"))));
+                                                HasSubstr("12 layers"), HasSubstr("1 to 15"))));
+}
+
+TEST_F(VolumeVerification, TellsAsFarAsWhichLayerTheFilesFollowEachOther) {
+  std::filesystem::remove(sample_.layer_path(10));
+  EXPECT_THAT(findings(),
+              ElementsAre(".: holds 15 layers; layer files 1 to 9 follow without a gap"));
+  std::filesystem::remove(sample_.layer_path(1));
+  EXPECT_THAT(findings(), ElementsAre(".: holds 15 layers; there is no layer file 1"));
 }
 
 TEST_F(VolumeVerification, FindsThatThereIsNoVolume) {
