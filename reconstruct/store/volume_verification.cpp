@@ -32,6 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kShardsInFlight = 3;
+constexpr double kMostShards = 1e8;        // a file each: more than a file system is made for
+constexpr std::int64_t kMostListed = 100;  // of what is missing
 
 /// A SampleError's message begins with the file, which the finding names itself.
 std::string without_name(const std::string& message, const fs::path& file) {
@@ -79,7 +81,7 @@ class VolumeVerification {
       : sample_(sample), listener_(listener), volume_(sample.volume_path()) {}
 
   std::int64_t run(bool deep) {
-    if (!check_metadata()) {
+    if (!check_metadata() || !check_shard_count()) {
       return 0;
     }
     check_layers_present();
@@ -224,11 +226,26 @@ class VolumeVerification {
     return ShardPlace{level, z, y, x};
   }
 
-  void check_missing(const std::vector<ShardPlace>& stored) {
-    std::set<fs::path> there;
-    for (const ShardPlace& place : stored) {
-      there.insert(shard_path(place));
+  /// What metadata may say without end is not worked through, nor told, without end.
+  bool check_shard_count() {
+    double shards = 0;
+    for (const ZarrArray& array : arrays_) {
+      const BlockCount count = shards_of(array);
+      shards += static_cast<double>(count.z) * static_cast<double>(count.y) *
+                static_cast<double>(count.x);
     }
+    if (shards > kMostShards) {
+      found(volume_ / kMetadataName, "says that there are more shards than a volume can have");
+      return false;
+    }
+    return true;
+  }
+
+  void check_missing(const std::vector<ShardPlace>& stored) {
+    for (const ShardPlace& place : stored) {
+      there_.insert(shard_path(place));
+    }
+    std::int64_t missing = 0;
     for (std::size_t level = 0; level < arrays_.size(); ++level) {
       const BlockCount shards = shards_of(arrays_[level]);
       const std::int64_t depth = arrays_[level].layout.shard[0];
@@ -236,14 +253,21 @@ class VolumeVerification {
         for (std::int64_t y = 0; y < shards.y; ++y) {
           for (std::int64_t x = 0; x < shards.x; ++x) {
             const fs::path path = shard_path({level, z, y, x});
-            if (!there.contains(path)) {
+            if (!there_.contains(path) && ++missing <= kMostListed) {
               found(path, kIsMissing);
-              damaged_.insert(path);
             }
           }
         }
       }
     }
+    if (missing > kMostListed) {
+      found(volume_, std::to_string(missing - kMostListed) + " more shards are missing");
+    }
+  }
+
+  /// Of which a finding tells already.
+  bool is_known_to_be_bad(const fs::path& shard) const {
+    return damaged_.contains(shard) || (group_.every_shard && !there_.contains(shard));
   }
 
   void decode_all(const std::vector<ShardPlace>& shards) {
@@ -343,7 +367,7 @@ class VolumeVerification {
 
   void compare_shard(const ShardPlace& place, std::int64_t first, std::int64_t end) {
     const fs::path path = shard_path(place);
-    if (damaged_.contains(path)) {
+    if (is_known_to_be_bad(path)) {
       return;  // told before
     }
     try {
@@ -391,7 +415,7 @@ class VolumeVerification {
           continue;
         }
         for (std::int64_t z = finer_first / depth; z * depth < finer_end; ++z) {
-          if (damaged_.contains(shard_path({finer, z, y, x}))) {
+          if (is_known_to_be_bad(shard_path({finer, z, y, x}))) {
             return {};
           }
         }
@@ -414,6 +438,7 @@ class VolumeVerification {
   VolumeMetadata group_;
   std::vector<ZarrArray> arrays_;
   std::mutex mutex_;
+  std::set<fs::path> there_;  ///< where every shard is stored
   std::set<fs::path> damaged_;
   std::int64_t done_ = 0;
   std::int64_t total_ = 0;

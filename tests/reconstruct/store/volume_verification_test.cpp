@@ -163,6 +163,33 @@ TEST_F(VolumeVerification, FindsEveryShardThatIsLostOnce) {
   }
 }
 
+TEST_F(VolumeVerification, CountsShardsThatAreLostInsteadOfListingThemWithoutEnd) {
+  layout_.chunk = {1, 4, 4};
+  layout_.shard = {2, 4, 4};
+  const auto sample = sample_with_layers(folder_ / "l", {60, 60, 2}, 8, 2);
+  VolumeWriter(sample, layout_).append(2, true);
+  std::filesystem::remove_all(sample.volume_path() / "0" / "c");  // 225 shards
+  for (const bool deep : {false, true}) {
+    HeardFindings heard(sample.volume_path());
+    verify_volume(sample, deep, heard.listener());
+    EXPECT_EQ(heard.done, heard.total);
+    ASSERT_EQ(heard.findings.size(), 101U);
+    EXPECT_THAT(heard.findings[99], StartsWith("0/c/0/0/6/9: is missing"));
+    EXPECT_THAT(heard.findings[100], StartsWith(".: 125 more shards are missing"));
+  }
+}
+
+TEST_F(VolumeVerification, RefusesMoreShardsThanAVolumeCanHave) {
+  layout_.chunk = {1, 2, 2};
+  layout_.shard = {1, 2, 2};
+  const auto sample =
+      sample_with_layers(folder_ / "h", {1'000'000, 1'000'000, 1'000'000}, 8, 0, {1, 1, 1});
+  const VolumeWriter empty(sample, layout_);
+  HeardFindings heard(sample.volume_path());
+  verify_volume(sample, true, heard.listener());
+  EXPECT_THAT(heard.findings, ElementsAre(AllOf(StartsWith("zarr.json: "), HasSubstr("shards"))));
+}
+
 TEST_F(VolumeVerification, FindsAShardThatIsLostOnlyWhenDeepWhereNotEveryOneIsStored) {
   const auto text = read_file(in_volume("zarr.json"));
   VolumeMetadata metadata =
