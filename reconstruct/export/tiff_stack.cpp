@@ -28,6 +28,7 @@ constexpr int kChannels = 3;
 constexpr int kDeflateLevel = 6;
 constexpr double kMicrometresPerCentimetre = 10'000.0;
 constexpr std::uint64_t kLargestClassicTiff = 0xF0000000;  // a TIFF ends at 4 GiB
+constexpr std::int64_t kMostOpenFiles = 256;  // a chunk may have more layers than these
 
 using Bytes = std::vector<std::byte>;
 
@@ -135,7 +136,7 @@ void export_tiff_stack(const Volume& volume, const ExportRequest& request) {
   UnfinishedExport unfinished(request.output);
   const std::int64_t depth = volume.layout().chunk[0];
   for (std::int64_t z = region.z.first; z < region.z.end;) {
-    const std::int64_t end = std::min((z / depth + 1) * depth, region.z.end);
+    const std::int64_t end = std::min({(z / depth + 1) * depth, z + kMostOpenFiles, region.z.end});
     write_slab(volume, request, {region.x, region.y, {z, end}}, unfinished.folder());
     z = end;
     if (request.progress) {

@@ -1,8 +1,11 @@
 #include "reconstruct/export/tiff_stack.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/image_file.hpp"
@@ -80,6 +83,30 @@ TEST_P(ATiffStack, LeavesNothingWhenAChunkIsDamagedOrItIsInterrupted) {
                   [&] { export_tiff_stack(Volume::open(sample_.volume_path()), request_); }),
               testing::HasSubstr(shard.string()));
   EXPECT_THAT(names_in(folder_.path()), testing::ElementsAre("s"));
+}
+
+TEST(ADeepTiffStack, NeedsFewerOpenFilesThanAChunkHasLayers) {
+  const tests::TemporaryFolder folder;
+  const SampleFolder sample = sample_with_layers(folder / "s", {8, 6, 400}, 8, 400);
+  VolumeLayout layout;
+  layout.chunk = {400, 8, 8};
+  layout.shard = {400, 8, 8};
+  VolumeWriter(sample, layout).append(400, true);
+  const Volume volume = Volume::open(sample.volume_path());
+  ExportRequest request;
+  request.output = folder / "out";
+  rlimit limits{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limits), 0);
+  const rlimit fewer{320, limits.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &fewer), 0);
+  EXPECT_NO_THROW(export_tiff_stack(volume, request));
+  ::setrlimit(RLIMIT_NOFILE, &limits);
+  for (const std::uint64_t layer : {1U, 256U, 257U, 400U}) {
+    std::array<char, 16> name{};
+    std::snprintf(name.data(), name.size(), "%06d.tif", static_cast<int>(layer));
+    EXPECT_TRUE(same_pixels(read_image_file(request.output / name.data()),
+                            test_image(8, 6, CV_8UC3, layer)));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Bits, ATiffStack, testing::Values(8, 16));
