@@ -16,6 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostDigits = 18;  // fits into 64 bits
 
+constexpr const char* kNoNumber =
+    ": has no number in its name, which tells the layer, as in layer_0001.tif; split a file of "
+    "several pages into one file a layer";
+
 /// A file name cut at its number.
 struct NumberedName {
   fs::path path;
@@ -46,6 +50,7 @@ std::optional<NumberedName> cut(const fs::path& path) {
 
 std::vector<NumberedName> names_in_folder(const fs::path& folder) {
   std::vector<NumberedName> names;
+  std::vector<fs::path> without_number;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
@@ -59,17 +64,21 @@ std::vector<NumberedName> names_in_folder(const fs::path& folder) {
       }
       if (name) {
         names.push_back(*std::move(name));
+      } else {
+        without_number.push_back(path);
       }
     }
   }
   if (error) {
     throw SampleError(folder.string() + ": cannot be listed: " + error.message());
   }
+  if (names.empty() && !without_number.empty()) {
+    throw SampleError(std::min_element(without_number.begin(), without_number.end())->string() +
+                      kNoNumber);
+  }
   if (names.empty()) {
-    throw SampleError(
-        folder.string() +
-        ": there are no images (PNG, TIFF, JPEG) with a number in their name: give the folder "
-        "that holds them");
+    throw SampleError(folder.string() +
+                      ": there are no images (PNG, TIFF, JPEG): give the folder that holds them");
   }
   return names;
 }
@@ -90,7 +99,7 @@ std::vector<NumberedName> names_of_files(const std::vector<fs::path>& files) {
     }
     auto name = cut(path);
     if (!name) {
-      throw SampleError(path.string() + ": has no number in its name; it tells the layer");
+      throw SampleError(path.string() + kNoNumber);
     }
     names.push_back(*std::move(name));
   }

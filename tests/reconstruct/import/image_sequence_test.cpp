@@ -67,6 +67,14 @@ TEST_F(Sequence, DoesNotLookAtOtherThingsInTheFolder) {
   EXPECT_THAT(names(find()), testing::ElementsAre("5.png"));
 }
 
+TEST_F(Sequence, SaysHowLayersAreNamedWhereNoImageHasANumber) {
+  save("stack.tif");
+  const auto advice = AllOf(HasSubstr("layer_0001.tif"), HasSubstr("one file a layer"));
+  EXPECT_THAT(error(), AllOf(StartsWith((folder_ / "stack.tif").string()), advice));
+  EXPECT_THAT(message_of<SampleError>([&] { ImageSequence::find({folder_ / "stack.tif"}); }),
+              advice);
+}
+
 TEST_F(Sequence, NamesALinkThatLeadsNowhere) {
   save("5.png");
   std::filesystem::create_symlink("nowhere.png", folder_.path() / "6.png");
