@@ -11,6 +11,7 @@
 #include "reconstruct/store/volume.hpp"
 #include "tools/command.hpp"
 #include "tools/interruption.hpp"
+#include "tools/output_path.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace biotomy::tools {
@@ -29,6 +30,7 @@ void run(const Options& options) {
   if (options.tiff != options.ome_zarr.empty()) {
     throw reconstruct::InvalidRequest("give either --ome-zarr 0.4 or --tiff");
   }
+  refuse_output_in_sample("--output", options.output);
   const auto sample = reconstruct::SampleFolder::open(options.sample);
   const auto volume = reconstruct::Volume::open(sample.volume_path());
   const Interruption interruption;

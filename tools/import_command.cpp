@@ -14,6 +14,7 @@
 #include "tools/command.hpp"
 #include "tools/freed_memory.hpp"
 #include "tools/interruption.hpp"
+#include "tools/output_path.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace biotomy::tools {
@@ -102,6 +103,8 @@ reconstruct::ImportRequest request_of(const Options& options) {
 
 void run(const Options& options) {
   const reconstruct::ImportRequest request = request_of(options);
+  // Its own name is the import's to judge: there may be an interrupted one to take up.
+  refuse_output_in_sample("--output", reconstruct::absolute_folder(options.output).parent_path());
   const auto images =
       reconstruct::ImageSequence::find({options.inputs.begin(), options.inputs.end()});
   keep_freed_memory();

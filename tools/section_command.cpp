@@ -23,6 +23,7 @@
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"
+#include "tools/output_path.hpp"
 #include "tools/picture_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
@@ -105,6 +106,10 @@ Section cut(const OpenedSample& sample, const reconstruct::SectionRequest& reque
 void run_section(const SectionArguments& arguments, const CLI::App& command) {
   const Interruption interruption;
   reconstruct::picture_format(arguments.output);
+  refuse_output_in_sample("--output", arguments.output);
+  if (arguments.json) {
+    refuse_output_in_sample("--json", sidecar_of(arguments.output));
+  }
   const int quality = jpeg_quality(arguments.picture);
   const SectionChoices chosen = choices(arguments.options);
   Durations durations;

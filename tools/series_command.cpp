@@ -22,6 +22,7 @@
 #include "tools/command.hpp"
 #include "tools/command_parameters.hpp"
 #include "tools/interruption.hpp"
+#include "tools/output_path.hpp"
 #include "tools/picture_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
@@ -97,8 +98,10 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command,
   const double rate = reconstruct::parse_number("--rate", arguments.rate);
   const std::string extension = extension_of(arguments);
   const int quality = jpeg_quality(arguments.picture);
+  refuse_output_in_sample("--output", arguments.output);
   if (arguments.movie) {
     reconstruct::check_film_name(*arguments.movie);
+    refuse_output_in_sample("--movie", *arguments.movie);
   }
   const OpenedSample sample(arguments.sample);
   sample.require_layers();

@@ -16,11 +16,12 @@ class ExportCommand : public testing::Test {
  protected:
   ExportCommand() { reconstruct::VolumeWriter(sample_, {}).append(3, true); }
 
-  void run(const std::vector<std::string>& options) const {
+  void run(const std::vector<std::string>& options) const { run(options, folder_ / "out"); }
+
+  void run(const std::vector<std::string>& options, const std::string& output) const {
     CLI::App app;
     add_export_command(app);
-    std::vector<std::string> arguments{"export", sample_.path().string(), "-o",
-                                       (folder_ / "out").string()};
+    std::vector<std::string> arguments{"export", sample_.path().string(), "-o", output};
     arguments.insert(arguments.end(), options.begin(), options.end());
     std::vector<std::string> last_first(arguments.rbegin(), arguments.rend());
     app.parse(last_first);
@@ -39,6 +40,12 @@ TEST_F(ExportCommand, WritesOmeZarr) {
 TEST_F(ExportCommand, WritesTiffs) {
   run({"--tiff", "--region", "1:5,0:10,1:2"});
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "000002.tif"));
+}
+
+TEST_F(ExportCommand, WritesNothingIntoASample) {
+  const std::string inside = (sample_.path() / "stack").string();
+  EXPECT_THROW(run({"--tiff"}, inside), reconstruct::InvalidRequest);
+  EXPECT_FALSE(std::filesystem::exists(inside));
 }
 
 TEST_F(ExportCommand, WantsOneForm) {

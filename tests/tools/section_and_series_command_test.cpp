@@ -122,6 +122,26 @@ TEST_F(SectionAndSeries, TheSidecarSaysWhereThePixelsAre) {
   EXPECT_THAT(picture, HasSubstr(sidecar.at("sample_to_pixel").dump()));
 }
 
+TEST_F(SectionAndSeries, NothingIsWrittenIntoASample) {
+  const fs::path layer = fs::path(sample_) / "layers/000003.tif";
+  const auto before = read_file(layer);
+  EXPECT_THAT(message_of<InvalidRequest>([&] { section(layer); }),
+              HasSubstr("--output " + layer.string() + ": lies in the sample " + sample_));
+  fs::create_symlink(fs::path(sample_) / "sample.toml", folder_ / "a.json");
+  EXPECT_THAT(message_of<InvalidRequest>([&] { section(folder_ / "a.png", {"--json"}); }),
+              HasSubstr("--json "));
+  EXPECT_THROW(rotation(fs::path(sample_) / "turning"), InvalidRequest);
+  EXPECT_THROW(rotation(folder_ / "turning", {"--movie", sample_ + "/turning.mp4"}),
+               InvalidRequest);
+  EXPECT_THROW(run({"import", folder_ / "images", "--spacing", "10,10,20", "-o",
+                    fs::path(sample_) / "layers/again"}),
+               InvalidRequest);
+  EXPECT_EQ(read_file(layer), before);
+  EXPECT_FALSE(fs::exists(folder_ / "a.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "turning"));
+  EXPECT_FALSE(fs::exists(fs::path(sample_) / "turning"));
+}
+
 TEST_F(SectionAndSeries, NoSidecarIsWrittenUnlessAskedFor) {
   section(folder_ / "a.png");
   EXPECT_FALSE(fs::exists(folder_ / "a.json"));
