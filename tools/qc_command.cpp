@@ -89,7 +89,7 @@ void judge_images(const Options& options, const std::vector<fs::path>& files, Qc
       report.add_unreadable(files[i].string(), std::nullopt, error.what());
       continue;
     }
-    const Assessment assessment = frames.judge(image);
+    const Assessment assessment = frames.judge(image, static_cast<std::int64_t>(i) + 1);
     if (assessment.verdict == acquisition::Verdict::accepted) frames.accept(assessment);
     report.add({files[i].string(), assessment, std::nullopt, {}});
     bar.update(static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(files.size()));
@@ -129,7 +129,7 @@ void judge_layers(const Options& options, QcReport& report) {
       if (layer >= range.first) report.add_unreadable(name, layer, error.what());
       continue;
     }
-    const Assessment assessment = frames.judge(image);
+    const Assessment assessment = frames.judge(image, layer);
     frames.accept(assessment);
     if (layer < range.first) continue;
     report.add({name, assessment, layer,

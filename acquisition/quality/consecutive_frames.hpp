@@ -16,8 +16,9 @@ class ConsecutiveFrames {
   /// A layer's images are of the size and kind of the first.
   explicit ConsecutiveFrames(const QualityThresholds& thresholds) : thresholds_(thresholds) {}
 
-  /// The next image, CV_8UC3 or CV_16UC3, R G B.
-  Assessment judge(const cv::Mat& image);
+  /// The next image, CV_8UC3 or CV_16UC3, R G B. Findings name the layers by these numbers, which
+  /// may leave some out.
+  Assessment judge(const cv::Mat& image, std::int64_t layer);
 
   /// The image judged last is a layer: the next ones are compared with it.
   void accept(const Assessment& assessment);
@@ -25,7 +26,6 @@ class ConsecutiveFrames {
  private:
   QualityThresholds thresholds_;
   FrameExpectation expectation_;
-  std::int64_t layer_ = 1;
 };
 
 }  // namespace biotomy::acquisition

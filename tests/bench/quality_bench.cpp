@@ -185,12 +185,13 @@ cv::Mat content(Content content, std::uint64_t depth, std::uint64_t exposure, in
 void assess_frame(benchmark::State& state, Content what, int type) {
   ConsecutiveFrames layers{QualityThresholds{}};
   for (std::uint64_t depth = 1; depth <= 3; ++depth) {
-    layers.accept(layers.judge(content(what, depth, depth, type)));
+    layers.accept(
+        layers.judge(content(what, depth, depth, type), static_cast<std::int64_t>(depth)));
   }
   const cv::Mat image = content(what, 4, 4, type);
   for (auto _ : state) {
     ConsecutiveFrames again = layers;
-    benchmark::DoNotOptimize(again.judge(image));
+    benchmark::DoNotOptimize(again.judge(image, 4));
   }
   count_pixels(state);
 }

@@ -35,6 +35,15 @@ cv::Mat face(int number) {
   return image;
 }
 
+/// The same face, photographed again: only the grain is another.
+cv::Mat once_more(const cv::Mat& image) {
+  cv::Mat grain(image.size(), CV_32FC3);
+  cv::RNG(5).fill(grain, cv::RNG::NORMAL, 0.0, 1.5);
+  cv::Mat again;
+  cv::add(image, grain, again, cv::noArray(), CV_8U);
+  return again;
+}
+
 cv::Mat black() {
   return {180, 240, CV_8UC3, cv::Scalar::all(1)};
 }
@@ -105,11 +114,7 @@ TEST_F(QcCommand, TakesNamesOfFilesInAnyEncoding) {
 
 TEST_F(QcCommand, FindsAFaceThatDidNotChange) {
   put("1.png", face(1));
-  cv::Mat again = face(1);
-  cv::Mat grain(again.size(), CV_32FC3);
-  cv::RNG(5).fill(grain, cv::RNG::NORMAL, 0.0, 1.5);
-  cv::add(again, grain, again, cv::noArray(), CV_8U);
-  put("2.png", again);
+  put("2.png", once_more(face(1)));
   const json document = json::parse(run({images_, "--json"}).output);
   EXPECT_EQ(document.at("frames").at(0).at("verdict"), "accepted");
   EXPECT_EQ(document.at("frames").at(1).at("slug"), "face-unchanged");
@@ -197,6 +202,30 @@ TEST_F(QcCommand, ShowsASamplesLayersBesideWhatTheJournalSaysOfThem) {
   EXPECT_THAT(text,
               HasSubstr("journal: attempt 1, 2026-01-02T03:04:05Z, rejected: it was blurred"));
   EXPECT_THAT(text, HasSubstr("in the journal     0.123"));
+}
+
+TEST_F(QcCommand, NamesTheLayerThatALayerWasComparedWith) {
+  const reconstruct::SampleDescription description{
+      .name = "s", .cuboid = {{240, 180, 12}, {10, 10, 20}}, .bits = 8, .notes = "", .created = ""};
+  const auto sample = reconstruct::SampleFolder::create(folder_ / "s", description);
+  for (int layer = 1; layer <= 12; ++layer) {
+    reconstruct::write_layer_image(sample.layer_path(layer),
+                                   layer == 12 ? once_more(face(11)) : face(layer),
+                                   {layer, {10, 10, 20}}, {});
+  }
+  const std::string path = sample.path().string();
+  EXPECT_THAT(run({"--sample", path, "--layers", "12"}).output, HasSubstr("from layer 11's"));
+
+  reconstruct::truncate_file(sample.layer_path(9), 0.5);
+  EXPECT_THAT(run({"--sample", path, "--layers", "12"}).output, HasSubstr("from layer 11's"));
+}
+
+TEST_F(QcCommand, NamesTheImageOfAFolderThatAnImageWasComparedWith) {
+  put("1.png", face(1));
+  put("2.png", black());
+  put("3.png", face(3));
+  put("4.png", once_more(face(3)));
+  EXPECT_THAT(run({images_}).output, HasSubstr("from layer 3's"));
 }
 
 TEST_F(QcCommand, RefusesLayersThatAreNotThere) {
