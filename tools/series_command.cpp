@@ -43,6 +43,7 @@ struct SeriesArguments : reconstruct::SeriesParameters {
   std::optional<std::string> movie;
   std::string rate = "25";
   std::string format = "png";
+  bool no_label = false;
   bool no_scale_bar = false;
   SectionOptions options;
   PictureOptions picture;
@@ -107,9 +108,10 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command,
   sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   reconstruct::VolumeBricks source(sample.volume, chosen.cache_bytes, chosen.damage, &sample.tail);
-  const SeriesFrames frames(
-      source, parse_series("--", arguments, chosen.unit, chosen.basis, cuboid),
-      style_for(chosen, arguments.options, cuboid.spacing), !arguments.no_scale_bar);
+  const SeriesFrames frames(source,
+                            parse_series("--", arguments, chosen.unit, chosen.basis, cuboid),
+                            style_for(chosen, arguments.options, cuboid.spacing),
+                            {.label = !arguments.no_label, .scale_bar = !arguments.no_scale_bar});
   const nlohmann::ordered_json parameters = command_parameters(command);
   const std::vector<std::string> names = names_of(frames.series(), extension);
   reconstruct::SeriesFolder folder(arguments.output, describe(sample, frames, names, parameters),
@@ -165,7 +167,10 @@ void add_shared_options(CLI::App& command, SeriesArguments& arguments) {
       ->required();
   command.add_option("--format", arguments.format, "Of the frames: png, tif or jpg")
       ->capture_default_str();
-  command.add_flag("--no-scale-bar", arguments.no_scale_bar, "The label alone below the pictures");
+  command.add_flag("--no-label", arguments.no_label,
+                   "No angle or offset below the pictures, and no room for it");
+  command.add_flag("--no-scale-bar", arguments.no_scale_bar,
+                   "No scale bar below the pictures; with --no-label nothing but the pictures");
   command.add_option("--movie", arguments.movie, "Also a film of them, .mp4 (H.264)");
   command.add_option("--rate", arguments.rate, "Frames of the film in a second")
       ->capture_default_str();

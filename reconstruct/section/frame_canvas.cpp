@@ -45,13 +45,15 @@ FrameCanvas::FrameCanvas(cv::Size largest_picture, const std::string& longest_la
   const cv::Size text =
       cv::getTextSize(longest_label, kFont, text_scale_, stroke(text_scale_), &below_baseline_);
   text_height_ = text.height;
-  strip_height_ = text.height + below_baseline_ + 2 * kMargin;
+  if (bar_ || !longest_label.empty()) {
+    strip_height_ = text.height + below_baseline_ + 2 * kMargin;
+  }
   size_ = {even(std::max(largest_picture.width, strip_width(text.width))),
            even(largest_picture.height + strip_height_)};
 }
 
 int FrameCanvas::strip_width(int label_width) const {
-  const int label = label_width + 2 * kMargin;
+  const int label = label_width == 0 ? 0 : label_width + 2 * kMargin;
   return bar_ ? label + bar_->pixels + text_width(bar_->label, text_scale_) + 3 * kMargin : label;
 }
 
@@ -69,8 +71,10 @@ void FrameCanvas::draw_bar(cv::Mat& frame, int baseline) const {
 cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {
   cv::Mat frame(size_, type, levels(background_, CV_MAT_DEPTH(type)));
   const int baseline = size_.height - kMargin - below_baseline_;
-  cv::putText(frame, label, {kMargin, baseline}, kFont, text_scale_, levels(kWhite, frame.depth()),
-              stroke(text_scale_), cv::LINE_AA);
+  if (!label.empty()) {
+    cv::putText(frame, label, {kMargin, baseline}, kFont, text_scale_,
+                levels(kWhite, frame.depth()), stroke(text_scale_), cv::LINE_AA);
+  }
   if (bar_) {
     draw_bar(frame, baseline);
   }

@@ -12,10 +12,11 @@ namespace biotomy::reconstruct {
 
 /// What the frames of a series are drawn on: as wide and as high as the largest picture, a strip
 /// below it for the label on the left and the scale bar on the right, so that they cover none of
-/// the picture. Sides are even, as films want them.
+/// the picture; no strip where there is neither. Sides are even, as films want them.
 class FrameCanvas {
  public:
-  /// `longest_label` is ASCII and has to fit; so has the bar, if there is one.
+  /// `longest_label` is ASCII and has to fit, empty when pictures have no label; so has the bar, if
+  /// there is one.
   FrameCanvas(cv::Size largest_picture, const std::string& longest_label, const Colour& background,
               std::optional<ScaleBar> bar = std::nullopt);
 

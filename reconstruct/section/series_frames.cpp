@@ -47,16 +47,6 @@ double pixel_of(const Outlines& outlines) {
   return cut == outlines.end() ? 0.0 : (*cut)->grid.pixel;
 }
 
-FrameCanvas canvas_for(const Outlines& outlines, const std::string& label, const Colour& background,
-                       bool with_scale_bar) {
-  const cv::Size size = largest(outlines);
-  std::optional<ScaleBar> bar;
-  if (with_scale_bar) {
-    bar = scale_bar(size.width, pixel_of(outlines));
-  }
-  return {size, label, background, bar};
-}
-
 std::string longest_label(const Series& series) {
   std::string longest;
   for (std::size_t i = 0; i < series.frames.size(); ++i) {
@@ -66,16 +56,27 @@ std::string longest_label(const Series& series) {
   return longest;
 }
 
+FrameCanvas canvas_for(const Outlines& outlines, const Series& series, const Colour& background,
+                       FrameMarks marks) {
+  const cv::Size size = largest(outlines);
+  std::optional<ScaleBar> bar;
+  if (marks.scale_bar) {
+    bar = scale_bar(size.width, pixel_of(outlines));
+  }
+  return {size, marks.label ? longest_label(series) : "", background, bar};
+}
+
 }  // namespace
 
 SeriesFrames::SeriesFrames(BrickSource& source, Series series, const SectionStyle& style,
-                           bool with_scale_bar)
+                           FrameMarks marks)
     : source_(source),
       series_(std::move(series)),
       style_(style),
+      marks_(marks),
       outlines_(outlines_of(source, series_, style)),
       pixel_(pixel_of(outlines_)),
-      canvas_(canvas_for(outlines_, longest_label(series_), style.background, with_scale_bar)) {
+      canvas_(canvas_for(outlines_, series_, style.background, marks)) {
   const double bytes = static_cast<double>(canvas_.size().width) * canvas_.size().height *
                        static_cast<double>(CV_ELEM_SIZE(frame_type()));
   if (bytes > static_cast<double>(style.max_bytes)) {
@@ -95,15 +96,18 @@ cv::Point SeriesFrames::first_pixel(std::size_t index) const {
   return canvas_.place_of(size_of(outlines_.at(index).value()));
 }
 
+std::string SeriesFrames::label(std::size_t index) const {
+  return marks_.label ? frame_label(series_, index) : "";
+}
+
 SampledImage SeriesFrames::draw(std::size_t index, const OnRows& on_rows) const {
-  const std::string label = frame_label(series_, index);
   const std::optional<SectionOutline>& outline = outlines_.at(index);
   if (!outline) {
-    return {canvas_.draw_empty(frame_type(), label), {}};
+    return {canvas_.draw_empty(frame_type(), label(index)), {}};
   }
   const SampledImage sampled =
       sample_grid(source_, outline->grid, style_.interpolation, style_.background, on_rows);
-  return {canvas_.draw(sampled.image, label), sampled.statistics};
+  return {canvas_.draw(sampled.image, label(index)), sampled.statistics};
 }
 
 }  // namespace biotomy::reconstruct

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
@@ -16,15 +17,20 @@ namespace biotomy::reconstruct {
 /// The background of series.
 inline constexpr Colour kGreyBlue{96, 112, 136};
 
+/// What stands below each picture of a series.
+struct FrameMarks {
+  bool label = true;  ///< its angle or offset
+  bool scale_bar = true;
+};
+
 /// The pictures of a series, all of one size. Frames may be drawn in any order; drawn in theirs,
 /// each finds in the source's cache most chunks that the one before has read.
 class SeriesFrames {
  public:
-  /// `source` must outlive it. `with_scale_bar`: below each picture, beside its label. Throws
-  /// SampleError when no plane of the series cuts the sample, or the frames would be larger than
-  /// `style.max_bytes`.
+  /// `source` must outlive it. Throws SampleError when no plane of the series cuts the sample, or
+  /// the frames would be larger than `style.max_bytes`.
   SeriesFrames(BrickSource& source, Series series, const SectionStyle& style,
-               bool with_scale_bar = true);
+               FrameMarks marks = {});
 
   std::size_t count() const { return series_.frames.size(); }
   cv::Size frame_size() const { return canvas_.size(); }
@@ -39,14 +45,18 @@ class SeriesFrames {
   cv::Point first_pixel(std::size_t index) const;
 
   /// CV_8UC3 or CV_16UC3, R G B: the section, centred; the background alone where the plane does
-  /// not cut the sample; with its label. The statistics are the section's. `on_rows` is told and
+  /// not cut the sample; with its marks. The statistics are the section's. `on_rows` is told and
   /// may end it as sample_grid's.
   SampledImage draw(std::size_t index, const OnRows& on_rows = {}) const;
 
  private:
+  /// Below the picture; empty when there is to be none.
+  std::string label(std::size_t index) const;
+
   BrickSource& source_;
   Series series_;
   SectionStyle style_;
+  FrameMarks marks_;
   std::vector<std::optional<SectionOutline>> outlines_;
   double pixel_ = 0.0;
   FrameCanvas canvas_;

@@ -242,6 +242,21 @@ TEST_F(SectionAndSeries, ASeriesSaysWhatItIs) {
   EXPECT_EQ(names_in(folder_ / "turning").size(), 6U);
 }
 
+TEST_F(SectionAndSeries, AFrameIsItsSectionAloneWhenNothingIsToStandBelow) {
+  const fs::path layers = folder_ / "layers";
+  const std::vector<std::string> words{"series", sample_, "translate", "--normal", "0,0,1",
+                                       "--step", "20",    "-o",        layers};
+  std::vector<std::string> bare = words;
+  bare.insert(bare.end(), {"--no-label", "--no-scale-bar"});
+  run(bare);
+  const nlohmann::json series = json_in(layers / "series.json");
+  EXPECT_TRUE(reconstruct::same_pixels(
+      read_image_file(layers / series.at("frames")[2].at("file").get<std::string>()),
+      reconstruct::test_image(40, 30, CV_8UC3, 2)));
+  EXPECT_EQ(series.at("parameters").at("no-label"), "true");
+  EXPECT_THAT(message_of<SampleError>([&] { run(words); }), HasSubstr("another series"));
+}
+
 TEST_F(SectionAndSeries, ASeriesIsTakenUpWhereItWasLeft) {
   const fs::path turning = folder_ / "turning";
   rotation(turning);

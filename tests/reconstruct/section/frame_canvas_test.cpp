@@ -78,6 +78,23 @@ TEST(FrameCanvas, IsWideEnoughForLabelAndScaleBar) {
             0.0);
 }
 
+TEST(FrameCanvas, KeepsNoRoomForWhatIsNotWanted) {
+  const FrameCanvas bare({301, 201}, "", kBackground);
+  EXPECT_EQ(bare.size(), cv::Size(302, 202));
+
+  const ScaleBar bar{200.0, 20, "200 um"};
+  const FrameCanvas bar_alone({10, 10}, "", kBackground, bar);
+  const FrameCanvas both({10, 10}, "+180.0 deg", kBackground, bar);
+  EXPECT_EQ(bar_alone.size().height, both.size().height);
+  EXPECT_LT(bar_alone.size().width, both.size().width);
+  const int right = bar_alone.size().width;
+  EXPECT_EQ(
+      cv::norm(bar_alone.draw_empty(CV_8UC3, ""),
+               both.draw_empty(CV_8UC3, "").colRange(both.size().width - right, both.size().width),
+               cv::NORM_INF),
+      0.0);
+}
+
 TEST(FrameCanvas, SaysWhereAPictureLies) {
   const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
   EXPECT_EQ(canvas.place_of({150, 100}), cv::Point(75, 50));

@@ -77,8 +77,22 @@ TEST(SeriesFrames, HaveAScaleBarUnlessItIsNotWanted) {
   MemorySource source;
   const Series series = translation_series(along_z(), BasisKind::layer, source.box);
   const SeriesFrames with(source, series, grey_blue_style());
-  const SeriesFrames without(source, series, grey_blue_style(), false);
+  const SeriesFrames without(source, series, grey_blue_style(), {.scale_bar = false});
   EXPECT_GT(with.frame_size().width, without.frame_size().width);  // the sample is a small one
+}
+
+TEST(SeriesFrames, AreTheSectionsAloneWithoutMarks) {
+  MemorySource source;
+  source.voxel = noise(source.box.size, 255, 1);
+  const SeriesFrames frames(source, translation_series(along_z(), BasisKind::layer, source.box),
+                            grey_blue_style(), {.label = false, .scale_bar = false});
+  ASSERT_EQ(frames.frame_size(), cv::Size(40, 30));
+  const cv::Mat frame = frames.draw(13).image;
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      ASSERT_EQ(frame.at<cv::Vec3b>(y, x)[1], source.voxel(x, y, 13, 1));
+    }
+  }
 }
 
 TEST(SeriesFrames, SayWhereTheirSectionLies) {
