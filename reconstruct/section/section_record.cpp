@@ -13,6 +13,17 @@ ordered_json vector_json(const Vector3& v) {
   return {v.x, v.y, v.z};
 }
 
+ordered_json sample_json(const std::string& name, const Cuboid& cuboid) {
+  const GridSize& size = cuboid.size;
+  return {{"name", name},
+          {"size", {size.x, size.y, size.z}},
+          {"spacing_um", vector_json(cuboid.spacing)}};
+}
+
+ordered_json plane_json(const Plane& plane) {
+  return {{"normal", vector_json(plane.normal())}, {"offset_um", plane.offset()}};
+}
+
 template <typename Matrix>
 ordered_json matrix_json(const Matrix& matrix) {
   ordered_json rows = ordered_json::array();
@@ -27,7 +38,6 @@ ordered_json matrix_json(const Matrix& matrix) {
 ordered_json to_json(const SectionRecord& record) {
   const PixelGrid& grid = record.outline.grid;
   const ThetaRectangle& rectangle = grid.rectangle;
-  const GridSize& size = record.cuboid.size;
   const PictureAffine affine = picture_affine(grid, record.plane, record.first.x, record.first.y);
   ordered_json polygon = ordered_json::array();
   for (const Vector3& vertex : record.outline.polygon) {
@@ -35,12 +45,8 @@ ordered_json to_json(const SectionRecord& record) {
   }
   return {
       {"software", "Biotomy " BIOTOMY_VERSION},
-      {"sample",
-       {{"name", record.sample},
-        {"size", {size.x, size.y, size.z}},
-        {"spacing_um", vector_json(record.cuboid.spacing)}}},
-      {"plane",
-       {{"normal", vector_json(record.plane.normal())}, {"offset_um", record.plane.offset()}}},
+      {"sample", sample_json(record.sample, record.cuboid)},
+      {"plane", plane_json(record.plane)},
       {"polygon_um", polygon},
       {"rectangle",
        {{"origin_um", vector_json(rectangle.origin)},
@@ -57,8 +63,24 @@ ordered_json to_json(const SectionRecord& record) {
   };
 }
 
+ordered_json to_json(const EmptyFrameRecord& record) {
+  return {
+      {"software", "Biotomy " BIOTOMY_VERSION},
+      {"sample", sample_json(record.sample, record.cuboid)},
+      {"plane", plane_json(record.plane)},
+      {"polygon_um", ordered_json::array()},
+      {"pixel_um", record.pixel},
+      {"picture", {{"width", record.picture.width}, {"height", record.picture.height}}},
+      {"parameters", record.parameters},
+  };
+}
+
 PictureNotes picture_notes(const SectionRecord& record) {
   return {record.outline.grid.pixel, record.sample, json_text(to_json(record))};
+}
+
+PictureNotes picture_notes(const EmptyFrameRecord& record) {
+  return {record.pixel, record.sample, json_text(to_json(record))};
 }
 
 std::string json_text(const ordered_json& document, int indentation) {

@@ -24,6 +24,17 @@ struct SectionRecord {
   nlohmann::ordered_json parameters;  ///< what was asked for, as it was asked
 };
 
+/// What is to be known of a frame of a series whose plane has no section: it misses the sample, or
+/// only touches it, at a corner or along an edge.
+struct EmptyFrameRecord {
+  std::string sample;
+  Cuboid cuboid;
+  Plane plane;
+  double pixel = 0.0;  ///< of the series, micrometres
+  cv::Size picture;
+  nlohmann::ordered_json parameters;
+};
+
 /// The record as the sidecar file, the pictures' metadata and the HTTP API give it: `software`,
 /// `sample` (`name`, `size` in voxels, `spacing_um`), `plane` (`normal`, `offset_um`),
 /// `polygon_um` (vertices), `rectangle` (`origin_um`, `p`, `q`, `width_um`, `height_um`),
@@ -32,8 +43,13 @@ struct SectionRecord {
 /// vectors in the order x, y, z.
 nlohmann::ordered_json to_json(const SectionRecord& record);
 
+/// What there is without a section: `polygon_um` is empty; rectangle, matrices and levels are left
+/// out.
+nlohmann::ordered_json to_json(const EmptyFrameRecord& record);
+
 /// What the picture's file says: the pixel size, the sample's name and the record on one line.
 PictureNotes picture_notes(const SectionRecord& record);
+PictureNotes picture_notes(const EmptyFrameRecord& record);
 
 /// JSON as a file or a picture's metadata holds it: ASCII, whatever letters names are written in.
 /// Without an indentation it is one line.

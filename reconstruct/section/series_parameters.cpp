@@ -67,10 +67,13 @@ PictureNotes frame_notes(const SeriesFrames& frames, std::size_t index, const st
                          const Cuboid& cuboid, const SampleStatistics& statistics,
                          const nlohmann::ordered_json& parameters) {
   const std::optional<SectionOutline>& outline = frames.outline(index);
-  if (!outline) return {frames.pixel(), sample, ""};
-  return picture_notes({sample, cuboid, frames.series().frames[index].plane, *outline,
-                        frames.frame_size(), frames.first_pixel(index), statistics.levels,
-                        parameters});
+  const Plane& plane = frames.series().frames[index].plane;
+  if (!outline) {
+    return picture_notes(
+        EmptyFrameRecord{sample, cuboid, plane, frames.pixel(), frames.frame_size(), parameters});
+  }
+  return picture_notes(SectionRecord{sample, cuboid, plane, *outline, frames.frame_size(),
+                                     frames.first_pixel(index), statistics.levels, parameters});
 }
 
 }  // namespace biotomy::reconstruct

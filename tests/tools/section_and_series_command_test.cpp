@@ -319,6 +319,20 @@ TEST_F(SectionAndSeries, FramesSayWhereTheirPixelsAre) {
   }
 }
 
+TEST_F(SectionAndSeries, AFrameThatOnlyTouchesTheSampleSaysWhichPlaneItIs) {
+  run({"series", sample_, "translate", "--normal", "1,1,4", "--step", "50", "-o",
+       folder_ / "through"});
+  const auto bytes = read_file(folder_ / "through/000_+000.0um.png");
+  const std::string picture(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t begin = picture.find("{\"software\"");
+  ASSERT_NE(begin, std::string::npos);
+  const auto record =
+      nlohmann::json::parse(picture.substr(begin, picture.find("}}", begin) + 2 - begin));
+  EXPECT_EQ(record.at("plane").at("offset_um"), 0.0);
+  EXPECT_EQ(record.at("polygon_um"), nlohmann::json::array());
+  EXPECT_EQ(record.at("parameters").at("normal"), "1,1,4");
+}
+
 TEST_F(SectionAndSeries, FramesComeInTheFormatAskedFor) {
   rotation(folder_ / "a", {"--format", "tif"});
   rotation(folder_ / "b", {"--format", "jpg", "--movie", folder_ / "b.mp4"});
