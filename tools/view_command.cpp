@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -15,6 +16,7 @@
 #include "acquisition/http/http_server.hpp"
 #include "acquisition/http/listen_address.hpp"
 #include "acquisition/http/page.hpp"
+#include "acquisition/http/request_guard.hpp"
 #include "acquisition/log.hpp"
 #include "acquisition/service/event_source.hpp"
 #include "acquisition/service/sample_service.hpp"
@@ -33,6 +35,7 @@ constexpr std::chrono::milliseconds kLook{50};  // between two looks for a signa
 struct ViewOptions {
   std::string sample;
   std::string listen = "127.0.0.1:0";
+  std::vector<std::string> hosts;
   bool no_browser = false;
   bool allow_remote = false;
 };
@@ -78,14 +81,25 @@ ListenAddress address_of(const ViewOptions& options) {
   return *address;
 }
 
+void check_hosts(const ViewOptions& options) {
+  for (const std::string& name : options.hosts) {
+    if (!is_host_name(name)) {
+      throw std::invalid_argument("--host: \"" + name +
+                                  "\" is not possible; expected a name without a port");
+    }
+  }
+}
+
 void view(const ViewOptions& options) {
   const ListenAddress address = address_of(options);
+  check_hosts(options);
   log_to_stderr();
   const auto folder = reconstruct::SampleFolder::open(options.sample);
   ViewerSettings viewer;
   viewer.journal = JournalReader::Journal::at_rest;
   viewer.threads = static_cast<int>(std::thread::hardware_concurrency());  // no run to make way for
-  const HttpSettings http;
+  HttpSettings http;
+  http.guard.hosts = options.hosts;
   const Page page(page_assets());
   EventFeed feed;
   SampleApi sample(std::filesystem::absolute(options.sample).lexically_normal(), viewer);
@@ -115,6 +129,11 @@ void add_view_command(CLI::App& app) {
       ->add_option("--listen", options->listen,
                    "Address and port of the page; port 0 is any that is free")
       ->capture_default_str();
+  command
+      ->add_option("--host", options->hosts,
+                   "A name by which browsers ask this computer, beside its address and its own "
+                   "name; may be given several times")
+      ->allow_extra_args(false);
   command->add_flag("--no-browser", options->no_browser, "Do not open a browser");
   command->add_flag("--allow-remote", options->allow_remote,
                     "Listen on an address that other computers reach");

@@ -69,6 +69,11 @@ std::optional<std::string> host_name(std::string_view host) {
   return lower_case(name);
 }
 
+bool is_host_name(std::string_view name) {
+  const std::optional<std::string> plain = host_name(name);
+  return plain && plain->size() == name.size();
+}
+
 RequestGuard::RequestGuard(GuardSettings settings) : settings_(std::move(settings)) {
   for (std::string& name : settings_.hosts) name = lower_case(name);
   for (std::string& name : own_host_names()) settings_.hosts.push_back(std::move(name));
@@ -91,7 +96,7 @@ std::optional<ApiResponse> RequestGuard::answer(const ApiRequest& request) const
   if (!knows_host(request.host)) {
     return error_response(421,
                           "this computer is not known by the name it was asked under: use its "
-                          "address, or add the name to service.hosts");
+                          "address, or add the name to service.hosts, for biotomy view by --host");
   }
   if (is_neuroglancer(request)) {
     if (request.method == "GET") return std::nullopt;

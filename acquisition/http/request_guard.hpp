@@ -40,6 +40,9 @@ class RequestGuard {
   GuardSettings settings_;
 };
 
+/// Whether `name` can stand among GuardSettings::hosts: a name alone, without a port.
+bool is_host_name(std::string_view name);
+
 /// The name in a Host header: lower case, without port and final dot; "[::1]:80" is "::1".
 /// Nothing when it is none.
 std::optional<std::string> host_name(std::string_view host);

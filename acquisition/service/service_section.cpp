@@ -41,8 +41,7 @@ void read_foreigners(const CheckedTable& table, ServiceConfiguration& service) {
                .description = "names by which browsers ask this computer, beside its address, "
                               "\"localhost\" and its own name; under any other they get nothing"});
   for (const std::string& name : service.http.guard.hosts) {
-    const auto plain = host_name(name);
-    if (!plain || plain->size() != name.size()) {
+    if (!is_host_name(name)) {
       table.reject("hosts", "\"" + name + "\" is not possible; expected a name without a port");
     }
   }

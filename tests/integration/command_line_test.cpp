@@ -115,10 +115,26 @@ TEST_F(CommandLine, OpensABrowserThatGoesOnAfterCtrlC) {
   EXPECT_EQ(view.wait(std::chrono::seconds(60)).exit_code, 0);
 }
 
+TEST_F(CommandLine, ShowsASampleUnderTheNamesThatItWasGiven) {
+  ChildProcess view(
+      {BIOTOMY_TOOL, "view", "--host", "Knee.lab", "--host", "other.lab", sample(), "--no-browser"},
+      folder_.path());
+  const std::string address = view.wait_for("http://", std::chrono::seconds(60));
+  httplib::Client client("http://" + address.substr(0, address.find('/')));
+  EXPECT_EQ(client.Get("/", {{"Host", "knee.lab:8080"}})->status, 200);
+  EXPECT_EQ(client.Get("/", {{"Host", "other.lab"}})->status, 200);
+  const auto refused = client.Get("/", {{"Host", "third.lab"}});
+  EXPECT_EQ(refused->status, 421);
+  EXPECT_NE(refused->body.find("--host"), std::string::npos) << refused->body;
+  view.send(SIGINT);
+  EXPECT_EQ(view.wait(std::chrono::seconds(60)).exit_code, 0);
+}
+
 TEST_F(CommandLine, ShowsASampleToNoOtherComputerUnasked) {
   const fs::path shown = sample();
   expect_one_line(biotomy({"view", shown, "--listen", "0.0.0.0:0"}), kUsage, "--allow-remote");
   expect_one_line(biotomy({"view", shown, "--listen", "nowhere"}), kUsage, "--listen");
+  expect_one_line(biotomy({"view", shown, "--host", "knee.lab:8080"}), kUsage, "--host");
   expect_one_line(biotomy({"view", folder_.path() / "none"}), kFailure, "none");
 }
 
