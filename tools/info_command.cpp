@@ -1,3 +1,4 @@
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iomanip>
@@ -19,7 +20,7 @@ using reconstruct::SampleDescription;
 using reconstruct::SampleFolder;
 using reconstruct::SampleSummary;
 
-constexpr double kMebibyte = 1024.0 * 1024.0;
+constexpr double kStep = 1024.0;  // from one unit of size to the next
 
 struct Options {
   std::string sample;
@@ -56,9 +57,17 @@ nlohmann::json to_json(const SampleDescription& description, const SampleSummary
           {"sections", {{"layers", summary.layers_in_sections}}}};
 }
 
-std::string mebibytes(std::uint64_t bytes) {
+std::string size_text(std::uint64_t bytes) {
+  constexpr std::array<const char*, 4> kUnits{"KiB", "MiB", "GiB", "TiB"};
+  if (bytes < kStep) return std::to_string(bytes) + " bytes";
+  auto amount = static_cast<double>(bytes) / kStep;
+  std::size_t unit = 0;
+  while (amount >= kStep && unit + 1 < kUnits.size()) {
+    amount /= kStep;
+    ++unit;
+  }
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / kMebibyte << " MiB";
+  text << std::fixed << std::setprecision(1) << amount << ' ' << kUnits[unit];
   return text.str();
 }
 
@@ -77,14 +86,14 @@ void print(const SampleDescription& description, const SampleSummary& summary) {
             << "extent    " << extent.x / 1000 << " × " << extent.y / 1000 << " × "
             << extent.z / 1000 << " mm between the outermost voxels' centres\n"
             << "layers    " << summary.layer_images << " of " << size.z << ", "
-            << mebibytes(summary.layer_bytes) << '\n'
+            << size_text(summary.layer_bytes) << '\n'
             << "sections  reach layer " << summary.layers_in_sections << '\n';
   if (!summary.has_volume) {
     std::cout << "volume    none yet\n";
     return;
   }
   std::cout << "volume    " << summary.layers_in_volume << " layers, "
-            << mebibytes(summary.volume_bytes) << "; chunks of " << layout.chunk[2] << " × "
+            << size_text(summary.volume_bytes) << "; chunks of " << layout.chunk[2] << " × "
             << layout.chunk[1] << " × " << layout.chunk[0] << ", shards of " << layout.shard[2]
             << " × " << layout.shard[1] << " × " << layout.shard[0] << ", " << layout.codec << ", "
             << (layout.interleaved ? "interleaved" : "planar") << '\n';

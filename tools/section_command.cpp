@@ -25,6 +25,7 @@
 #include "tools/interruption.hpp"
 #include "tools/output_path.hpp"
 #include "tools/picture_options.hpp"
+#include "tools/plane_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/section_options.hpp"
 
@@ -153,11 +154,7 @@ void add_section_command(CLI::App& app) {
   auto arguments = std::make_shared<SectionArguments>();
   arguments->options.background = "0,0,0";
   command->add_option("SAMPLE", arguments->sample, "The sample's folder")->required();
-  command->add_option("--points", arguments->plane.points,
-                      "Three points of the plane, \"x,y,z x,y,z x,y,z\"");
-  command->add_option("--normal", arguments->plane.normal,
-                      "A normal of the plane, a,b,c: a direction in space, whatever the unit");
-  command->add_option("--through", arguments->plane.through, "A point of the plane, x,y,z");
+  add_plane_options(*command, arguments->plane);
   add_section_options(*command, arguments->options);
   add_picture_options(*command, arguments->picture);
   command->add_flag("--json", arguments->json,
@@ -166,7 +163,10 @@ void add_section_command(CLI::App& app) {
   command->add_flag("--stats", arguments->stats, "Print one line of JSON on stderr");
   command->add_option("-o,--output", arguments->output, "The picture: .png, .tif or .jpg")
       ->required();
-  command->callback([arguments, command] { run_section(*arguments, *command); });
+  command->callback([arguments, command] {
+    take_unquoted_points(*command);
+    run_section(*arguments, *command);
+  });
 }
 
 }  // namespace biotomy::tools

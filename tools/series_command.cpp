@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -52,11 +54,11 @@ struct SeriesArguments : reconstruct::SeriesParameters {
 using ParseSeries = decltype(&reconstruct::parse_rotation);
 
 std::string extension_of(const SeriesArguments& arguments) {
-  std::string extension = '.' + arguments.format;
-  if (extension != ".png" && extension != ".tif" && extension != ".jpg") {
+  constexpr std::array<const char*, 5> kFormats{"png", "tif", "tiff", "jpg", "jpeg"};
+  if (std::find(kFormats.begin(), kFormats.end(), arguments.format) == kFormats.end()) {
     throw InvalidRequest("--format '" + arguments.format + "': there are png, tif, jpg");
   }
-  return extension;
+  return '.' + arguments.format;
 }
 
 std::vector<std::string> names_of(const Series& series, const std::string& extension) {
@@ -121,7 +123,9 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command,
     film.emplace(*arguments.movie, rate, frames.frame_size());
   }
 
-  const int stored_type = arguments.format == "jpg" ? CV_8UC3 : frames.frame_type();
+  const bool is_jpeg =
+      reconstruct::picture_format(names.front()) == reconstruct::PictureFormat::jpeg;
+  const int stored_type = is_jpeg ? CV_8UC3 : frames.frame_type();
   ProgressBar progress("Cutting", "frames");
   for (std::size_t i = 0; i < frames.count(); ++i) {
     if (Interruption::requested()) {

@@ -87,7 +87,8 @@ ThetaChoice parse_edge(const std::string& name, const std::string& text,
   const char* const end = edge_text.data() + edge_text.size();
   const auto [stopped, error] = std::from_chars(edge_text.data(), end, edge);
   if (error != std::errc{} || stopped != end || edge < 0) {
-    refuse(name, text, "edge:I with the whole number I of an edge of the section, from 0");
+    refuse(name, text,
+           "edge:I with the whole number I of an edge of the section: edge:0 is the first");
   }
   return theta::InscribedAtEdge{edge};
 }
@@ -190,15 +191,16 @@ ThetaChoice parse_theta(const std::string& name, const std::string& text, Length
                         const Vector3& spacing) {
   const std::string_view whole = without_blanks(text);
   const auto colon = whole.find(':');
+  const bool is_alone = colon == std::string_view::npos;
   const std::string_view word = whole.substr(0, colon);
-  if (colon != std::string_view::npos) {
-    if (word == "edge") {
-      return parse_edge(name, text, whole.substr(colon + 1));
-    }
-    if (word == "custom") {
-      return parse_custom(name, text, whole.substr(colon + 1), unit, spacing);
-    }
-  } else {
+  const std::string_view rest = is_alone ? std::string_view{} : whole.substr(colon + 1);
+  if (word == "edge") {
+    return parse_edge(name, text, rest);
+  }
+  if (word == "custom") {
+    return parse_custom(name, text, rest, unit, spacing);
+  }
+  if (is_alone) {
     if (word == "bounding") {
       return theta::Bounding{};
     }

@@ -119,7 +119,8 @@ TEST_F(Commands, InfoTellsPeopleAboutTheSample) {
   run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
   const std::string text = run({"info", sample_});
   EXPECT_THAT(text, testing::HasSubstr("20 × 10 × 3"));
-  EXPECT_THAT(text, testing::HasSubstr("3 of 3"));
+  EXPECT_THAT(text, testing::ContainsRegex("3 of 3, [1-9][0-9.]* (bytes|KiB)\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("volume +3 layers, [1-9][0-9.]* (bytes|KiB);"));
   EXPECT_THAT(text, testing::HasSubstr("blosc-lz4"));
   EXPECT_THAT(text, testing::HasSubstr("level 0  20 × 10 × 3 voxels of 10 × 20 × 30 µm"));
 }

@@ -122,6 +122,24 @@ TEST_F(SectionAndSeries, TheSidecarSaysWhereThePixelsAre) {
   EXPECT_THAT(picture, HasSubstr(sidecar.at("sample_to_pixel").dump()));
 }
 
+TEST_F(SectionAndSeries, ThreePointsNeedNoQuotes) {
+  const fs::path quoted = folder_ / "quoted.png";
+  const fs::path plain = folder_ / "plain.png";
+  run({"section", "--points", "0,0,0 300,0,50 -10,200,70", sample_, "--json", "-o", quoted});
+  run({"section", sample_, "--points", "0,0,0", "300,0,50", "-10,200,70", "--json", "-o", plain});
+  EXPECT_TRUE(reconstruct::same_pixels(read_image_file(plain), read_image_file(quoted)));
+  EXPECT_EQ(json_in(folder_ / "plain.json"), json_in(folder_ / "quoted.json"));
+  EXPECT_EQ(message_of<InvalidRequest>([&] {
+              run({"section", "--points", "0,0,0", "300,0,50", "0,200,70", sample_, "-o", plain});
+            }),
+            "The following arguments were not expected: 0,200,70 " + sample_ +
+                "; put the three points into quotes: --points \"x,y,z x,y,z x,y,z\"");
+  EXPECT_EQ(message_of<InvalidRequest>([&] {
+              section(plain, {"--pixle", "3"});
+            }),
+            "The following arguments were not expected: --pixle 3");
+}
+
 TEST_F(SectionAndSeries, NothingIsWrittenIntoASample) {
   const fs::path layer = fs::path(sample_) / "layers/000003.tif";
   const auto before = read_file(layer);
@@ -338,6 +356,13 @@ TEST_F(SectionAndSeries, FramesComeInTheFormatAskedFor) {
   rotation(folder_ / "b", {"--format", "jpg", "--movie", folder_ / "b.mp4"});
   EXPECT_TRUE(fs::exists(folder_ / "a/004_+040.0deg.tif"));
   EXPECT_TRUE(fs::exists(folder_ / "b/004_+040.0deg.jpg"));
+  rotation(folder_ / "d", {"--format", "tiff"});
+  rotation(folder_ / "e", {"--format", "jpeg"});
+  const fs::path jpeg = folder_ / "e/004_+040.0deg.jpeg";
+  EXPECT_TRUE(fs::exists(folder_ / "d/004_+040.0deg.tiff"));
+  const auto written = fs::last_write_time(jpeg);
+  rotation(folder_ / "e", {"--format", "jpeg"});
+  EXPECT_EQ(fs::last_write_time(jpeg), written);
   EXPECT_THROW(rotation(folder_ / "c", {"--format", "bmp"}), InvalidRequest);
   EXPECT_FALSE(fs::exists(folder_ / "c"));
 }

@@ -80,6 +80,10 @@ TEST_F(ThetaOption, TakesACustomRectangleInTheUnit) {
 TEST_F(ThetaOption, RefusesAnotherWordAndAnEdgeThatIsNotThere) {
   EXPECT_THAT(message_of<InvalidRequest>([&] { section("inscribed-all"); }),
               HasSubstr("--theta 'inscribed-all': did you mean inscribed-any?"));
+  EXPECT_THAT(message_of<InvalidRequest>([&] { section("edge"); }),
+              testing::AllOf(HasSubstr("--theta 'edge': give edge:I"), HasSubstr("edge:0")));
+  EXPECT_THAT(message_of<InvalidRequest>([&] { section("custom"); }),
+              HasSubstr("--theta 'custom': give custom:X,Y,Z,W,H,ANGLE"));
   EXPECT_THAT(message_of<InvalidRequest>([&] { section("edge:6"); }),
               HasSubstr("the section has no edge 6: it has "));
 }
