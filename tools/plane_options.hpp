@@ -1,5 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "reconstruct/geometry/cuboid.hpp"
+#include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 
 namespace CLI {
@@ -8,13 +13,25 @@ class App;
 
 namespace biotomy::tools {
 
-/// The options that say which plane a command cuts along, as they were typed. The command leaves
-/// arguments that it does not know to `take_unquoted_points`.
-void add_plane_options(CLI::App& command, reconstruct::PlaneText& plane);
+/// Which plane a command cuts along, as it was typed.
+struct PlaneOptions : reconstruct::PlaneText {
+  std::optional<std::string> layer;
+  std::optional<std::string> tilt;
+  std::optional<std::string> azimuth;
+};
+
+/// The command leaves arguments that it does not know to `take_unquoted_points`.
+void add_plane_options(CLI::App& command, PlaneOptions& options);
 
 /// To be called first in the command's callback. Three points that no quotes hold together came as
 /// an option with one and two arguments too many: they become one text again. Throws InvalidRequest
 /// for any other argument that the command does not know.
 void take_unquoted_points(CLI::App& command);
+
+/// The plane in a sample of this size: one of three points, a normal and a point, a layer, or
+/// angles; layers and angles mean what they do in the page's explorer. Throws InvalidRequest that
+/// names the option, SampleError for a layer that the sample does not have.
+reconstruct::Plane plane_of(const PlaneOptions& options, reconstruct::LengthUnit unit,
+                            const reconstruct::Cuboid& cuboid);
 
 }  // namespace biotomy::tools

@@ -41,7 +41,7 @@ using reconstruct::VolumeBricks;
 struct SectionArguments {
   std::string sample;
   std::string output;
-  reconstruct::PlaneText plane;
+  PlaneOptions plane;
   SectionOptions options;
   PictureOptions picture;
   bool json = false;
@@ -118,8 +118,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
   const OpenedSample sample(arguments.sample);
   sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
-  const reconstruct::Plane plane =
-      reconstruct::parse_plane("--", arguments.plane, chosen.unit, cuboid.spacing);
+  const reconstruct::Plane plane = plane_of(arguments.plane, chosen.unit, cuboid);
   const Section section = cut(sample,
                               {plane, reconstruct::section_basis(chosen.basis, plane),
                                style_for(chosen, arguments.options, cuboid.spacing)},

@@ -122,6 +122,54 @@ TEST_F(SectionAndSeries, TheSidecarSaysWhereThePixelsAre) {
   EXPECT_THAT(picture, HasSubstr(sidecar.at("sample_to_pixel").dump()));
 }
 
+TEST_F(SectionAndSeries, APlaneMayBeALayer) {
+  const fs::path picture = folder_ / "a.png";
+  run({"section", sample_, "--layer", "3", "-o", picture});
+  EXPECT_TRUE(reconstruct::same_pixels(read_image_file(picture),
+                                       reconstruct::test_image(40, 30, CV_8UC3, 2)));
+  const auto layer = [&](const std::string& number) {
+    run({"section", sample_, "--layer", number, "-o", picture});
+  };
+  EXPECT_THAT(message_of<SampleError>([&] { layer("7"); }), HasSubstr("has layers 1 to 6"));
+  EXPECT_THROW(layer("0"), InvalidRequest);
+  EXPECT_THROW(layer("1.5"), InvalidRequest);
+}
+
+TEST_F(SectionAndSeries, APlaneMayBeGivenByItsAngles) {
+  const auto plane = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"section", sample_, "--json", "-o", folder_ / "a.png"};
+    words.insert(words.end(), options.begin(), options.end());
+    run(words);
+    return json_in(folder_ / "a.json").at("plane");
+  };
+  // The sample's extent is 390 x 290 x 100 um.
+  EXPECT_EQ(plane({"--tilt", "90"}), plane({"--normal", "1,0,0", "--through", "195,145,50"}));
+  EXPECT_EQ(plane({"--tilt", "90", "--azimuth", "-90"}),
+            plane({"--normal", "0,-1,0", "--through", "195,145,50"}));
+  EXPECT_EQ(plane({"--tilt", "0", "--azimuth", "12"}),
+            plane({"--normal", "0,0,1", "--through", "195,145,50"}));
+  // As the page's explorer copies it as a command.
+  EXPECT_EQ(plane({"--tilt", "30", "--azimuth", "75", "--through", "0,0,40"}),
+            plane({"--normal", "0.12941,0.482963,0.866025", "--through", "0,0,40"}));
+}
+
+TEST_F(SectionAndSeries, APlaneIsGivenInOneWay) {
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {},
+           {"--through", "0,0,0"},
+           {"--azimuth", "10"},
+           {"--layer", "1", "--tilt", "10"},
+           {"--layer", "1", "--through", "0,0,0"},
+           {"--normal", "0,0,1", "--through", "0,0,0", "--tilt", "10"},
+           {"--points", "0,0,0 1,0,0 0,1,0", "--layer", "1"},
+           {"--tilt", "91"},
+           {"--tilt", "10", "--azimuth", "181"}}) {
+    std::vector<std::string> words{"section", sample_, "-o", folder_ / "a.png"};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_THROW(run(words), InvalidRequest) << testing::PrintToString(options);
+  }
+}
+
 TEST_F(SectionAndSeries, ThreePointsNeedNoQuotes) {
   const fs::path quoted = folder_ / "quoted.png";
   const fs::path plain = folder_ / "plain.png";
