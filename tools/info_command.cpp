@@ -59,8 +59,9 @@ nlohmann::json to_json(const SampleDescription& description, const SampleSummary
 
 std::string size_text(std::uint64_t bytes) {
   constexpr std::array<const char*, 4> kUnits{"KiB", "MiB", "GiB", "TiB"};
-  if (bytes < kStep) return std::to_string(bytes) + " bytes";
-  auto amount = static_cast<double>(bytes) / kStep;
+  auto amount = static_cast<double>(bytes);
+  if (amount < kStep) return std::to_string(bytes) + " bytes";
+  amount /= kStep;
   std::size_t unit = 0;
   while (amount >= kStep && unit + 1 < kUnits.size()) {
     amount /= kStep;
