@@ -1,5 +1,6 @@
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <ctime>
 #include <memory>
 #include <string>
@@ -22,6 +23,8 @@ namespace {
 
 constexpr const char* kInterleaved = "interleaved";
 constexpr const char* kPlanar = "planar";
+constexpr const char* kRefuseGaps = "refuse";
+constexpr const char* kRepeatOverGaps = "repeat";
 const reconstruct::VolumeLayout kDefaultLayout;
 
 /// The command line says x, y, z; the layout z, y, x.
@@ -44,6 +47,8 @@ struct Options {
   std::string codec = kDefaultLayout.codec;
   std::string colours = kDefaultLayout.interleaved ? kInterleaved : kPlanar;
   std::string compression = "zstd";
+  std::string gaps = kRefuseGaps;
+  std::int64_t number_step = 1;
   bool restart = false;
 };
 
@@ -106,7 +111,8 @@ void run(const Options& options) {
   // Its own name is the import's to judge: there may be an interrupted one to take up.
   refuse_output_in_sample("--output", reconstruct::absolute_folder(options.output).parent_path());
   const auto images =
-      reconstruct::ImageSequence::find({options.inputs.begin(), options.inputs.end()});
+      reconstruct::ImageSequence::find({options.inputs.begin(), options.inputs.end()},
+                                       {options.number_step, options.gaps == kRepeatOverGaps});
   keep_freed_memory();
   const Interruption interruption;
   ProgressBar bar("Importing", "layers");
@@ -160,6 +166,16 @@ void add_import_command(CLI::App& app) {
       ->add_option("--colours", options->colours,
                    "In the volume's chunks: interleaved, voxel by voxel, or planar")
       ->check(CLI::IsMember({kInterleaved, kPlanar}))
+      ->capture_default_str();
+  command
+      ->add_option("--gaps", options->gaps,
+                   "Where numbers are missing: refuse, or repeat the image before the gap")
+      ->check(CLI::IsMember({kRefuseGaps, kRepeatOverGaps}))
+      ->capture_default_str();
+  command
+      ->add_option("--number-step", options->number_step,
+                   "From a layer's number in the name to the next one's")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
       ->capture_default_str();
   command->add_flag("--restart", options->restart,
                     "Forget what an interrupted import of the same output has done");

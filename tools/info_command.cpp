@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,7 @@ nlohmann::json to_json(const SampleDescription& description, const SampleSummary
           {"size", {size.x, size.y, size.z}},
           {"spacing_um", {spacing.x, spacing.y, spacing.z}},
           {"bits", description.bits},
+          {"repeated_layers", description.repeated_layers},
           {"layer_images", {{"count", summary.layer_images}, {"bytes", summary.layer_bytes}}},
           {"volume", volume},
           {"sections", {{"layers", summary.layers_in_sections}}}};
@@ -72,6 +74,23 @@ std::string size_text(std::uint64_t bytes) {
   return text.str();
 }
 
+/// 4, 7-9
+std::string numbers_text(const std::vector<std::int64_t>& numbers) {
+  std::string text;
+  for (std::size_t first = 0; first < numbers.size();) {
+    std::size_t last = first;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) {
+      ++last;
+    }
+    text += (text.empty() ? "" : ", ") + std::to_string(numbers[first]);
+    if (last > first) {
+      text += '-' + std::to_string(numbers[last]);
+    }
+    first = last + 1;
+  }
+  return text;
+}
+
 void print(const SampleDescription& description, const SampleSummary& summary) {
   const auto& [size, spacing] = description.cuboid;
   const auto extent = description.cuboid.extent();
@@ -89,6 +108,10 @@ void print(const SampleDescription& description, const SampleSummary& summary) {
             << "layers    " << summary.layer_images << " of " << size.z << ", "
             << size_text(summary.layer_bytes) << '\n'
             << "sections  reach layer " << summary.layers_in_sections << '\n';
+  if (!description.repeated_layers.empty()) {
+    std::cout << "gaps      without a photograph, the layer before once more: "
+              << numbers_text(description.repeated_layers) << '\n';
+  }
   if (!summary.has_volume) {
     std::cout << "volume    none yet\n";
     return;

@@ -66,6 +66,7 @@ SampleDescription description_of(const ImageSequence& images, const ImportReques
   description.notes = request.notes;
   description.created = request.created;
   description.bits = images.bits();
+  description.repeated_layers = images.repeated();
   description.cuboid.size = {images.size().width, images.size().height, images.count()};
   description.cuboid.spacing = spacing_of(request.scale, description.cuboid.size);
   for (const LevelFactor& factor : pyramid_factors(description.cuboid, request.layout.chunk)) {

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostDigits = 18;  // fits into 64 bits
+constexpr std::size_t kMostDigits = 18;     // fits into 64 bits
+constexpr std::int64_t kLongestGap = 1000;  // layers: beyond, a stray file is more likely
 
 constexpr const char* kNoNumber =
     ": has no number in its name, which tells the layer, as in layer_0001.tif; split a file of "
@@ -120,20 +121,35 @@ void check_alike(const std::vector<NumberedName>& names) {
   }
 }
 
-void check_numbers(const std::vector<NumberedName>& names) {
-  for (std::size_t i = 1; i < names.size(); ++i) {
-    const NumberedName& before = names[i - 1];
-    const NumberedName& name = names[i];
-    if (name.number == before.number) {
-      throw SampleError(name.path.string() + ": has the same number as " +
-                        before.path.filename().string());
-    }
-    if (name.number != before.number + 1) {
-      throw SampleError(name.path.parent_path().string() + ": number " +
-                        std::to_string(before.number + 1) + " is missing between " +
-                        before.path.filename().string() + " and " + name.path.filename().string());
-    }
+/// How many layers are missing between two that follow each other in the order of their numbers.
+std::int64_t gap_between(const NumberedName& before, const NumberedName& name,
+                         const ImageNumbering& numbering) {
+  const std::int64_t distance = name.number - before.number;
+  const std::string here = name.path.string();
+  const std::string earlier = before.path.filename().string();
+  if (distance == 0) {
+    throw SampleError(here + ": has the same number as " + earlier);
   }
+  if (distance % numbering.step != 0) {
+    throw SampleError(here + ": has a number " + std::to_string(distance) + " above that of " +
+                      earlier + ", which is no multiple of the step, " +
+                      std::to_string(numbering.step));
+  }
+  const std::int64_t missing = distance / numbering.step - 1;
+  if (missing > 0 && !numbering.repeats_over_gaps) {
+    throw SampleError(name.path.parent_path().string() + ": number " +
+                      std::to_string(before.number + numbering.step) + " is missing between " +
+                      earlier + " and " + name.path.filename().string() +
+                      ": --gaps repeat takes the image before a gap for it too, --number-step N is "
+                      "for numbers in steps of N");
+  }
+  if (missing > kLongestGap) {
+    throw SampleError(here + ": " + std::to_string(missing) +
+                      " layers are missing before it, more "
+                      "than " +
+                      std::to_string(kLongestGap) + ": is it of this stack?");
+  }
+  return missing;
 }
 
 std::string describe(cv::Size size, int type) {
@@ -143,13 +159,15 @@ std::string describe(cv::Size size, int type) {
 
 }  // namespace
 
-ImageSequence::ImageSequence(std::vector<fs::path> files) : files_(std::move(files)) {
+ImageSequence::ImageSequence(std::vector<fs::path> files, std::vector<std::int64_t> repeated)
+    : files_(std::move(files)), repeated_(std::move(repeated)) {
   const cv::Mat first = read_image_file(files_.front());
   size_ = first.size();
   type_ = first.type();
 }
 
-ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs) {
+ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs,
+                                  const ImageNumbering& numbering) {
   std::error_code error;
   std::vector<NumberedName> names = inputs.size() == 1 && fs::is_directory(inputs.front(), error)
                                         ? names_in_folder(inputs.front())
@@ -159,13 +177,16 @@ ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs) {
     return std::pair(a.number, a.path) < std::pair(b.number, b.path);
   });
   check_alike(names);
-  check_numbers(names);
-  std::vector<fs::path> files;
-  files.reserve(names.size());
-  for (NumberedName& name : names) {
-    files.push_back(std::move(name.path));
+  std::vector<fs::path> files{names.front().path};
+  std::vector<std::int64_t> repeated;
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    for (std::int64_t gap = gap_between(names[i - 1], names[i], numbering); gap > 0; --gap) {
+      files.push_back(names[i - 1].path);
+      repeated.push_back(static_cast<std::int64_t>(files.size()));
+    }
+    files.push_back(names[i].path);
   }
-  return ImageSequence(std::move(files));
+  return {std::move(files), std::move(repeated)};
 }
 
 cv::Mat ImageSequence::read(std::int64_t layer) const {

@@ -25,6 +25,7 @@ constexpr const char* kLayersName = "layers";
 constexpr const char* kRejectedName = "rejected";
 constexpr std::int64_t kMostVoxels = 1'000'000;  // along one axis
 constexpr std::uintmax_t kMostDescriptionBytes = std::uintmax_t{1} << 20;
+constexpr const char* kRepeatedLayers = "repeated_layers";
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw SampleError(file.string() + ": " + what);
@@ -48,6 +49,14 @@ void check(const SampleDescription& description, const fs::path& file) {
   check_spacing("x", description.cuboid.spacing.x);
   check_spacing("y", description.cuboid.spacing.y);
   check_spacing("z", description.cuboid.spacing.z);
+  std::int64_t before = 1;
+  for (const std::int64_t layer : description.repeated_layers) {
+    if (layer <= before || layer > description.cuboid.size.z) {
+      fail(file, std::string(kRepeatedLayers) +
+                     " must be numbers of layers in their order, from 2 to grid.layers");
+    }
+    before = layer;
+  }
   if (description.bits != 8 && description.bits != 16) {
     fail(file, "bits is " + std::to_string(description.bits) + ", must be 8 or 16");
   }
@@ -68,8 +77,17 @@ std::string to_toml(const SampleDescription& description) {
       << "name = " << quoted(description.name) << '\n'
       << "created = " << quoted(description.created) << '\n'
       << "notes = " << quoted(description.notes) << '\n'
-      << "bits = " << description.bits << "  # of one colour\n"
-      << "\n[grid]\n"
+      << "bits = " << description.bits << "  # of one colour\n";
+  if (!description.repeated_layers.empty()) {
+    out << kRepeatedLayers << " = [";
+    const char* separator = "";
+    for (const std::int64_t layer : description.repeated_layers) {
+      out << separator << layer;
+      separator = ", ";
+    }
+    out << "]  # without a photograph: the layer before once more\n";
+  }
+  out << "\n[grid]\n"
       << "layers = " << cuboid.size.z << '\n'
       << "width = " << cuboid.size.x << '\n'
       << "height = " << cuboid.size.y << '\n'
@@ -140,6 +158,26 @@ std::string read_description(const fs::path& file) {
   return text;
 }
 
+std::vector<std::int64_t> repeated_layers(const toml::table& table, const fs::path& file) {
+  std::vector<std::int64_t> layers;
+  const toml::node* const node = table.get(kRepeatedLayers);
+  if (node == nullptr) {
+    return layers;
+  }
+  const toml::array* const numbers = node->as_array();
+  if (numbers == nullptr) {
+    fail(file, std::string(kRepeatedLayers) + " is not of the right type");
+  }
+  for (const toml::node& number : *numbers) {
+    const std::optional<std::int64_t> layer = number.value_exact<std::int64_t>();
+    if (!layer) {
+      fail(file, std::string(kRepeatedLayers) + " is not of the right type");
+    }
+    layers.push_back(*layer);
+  }
+  return layers;
+}
+
 SampleDescription parse(const fs::path& file) {
   toml::table table;
   try {
@@ -149,7 +187,8 @@ SampleDescription parse(const fs::path& file) {
     what << "line " << error.source().begin.line << ": " << excerpt(error.description());
     fail(file, what.str());
   }
-  refuse_unknown_keys(table, "", {"name", "created", "notes", "bits", "grid", "spacing_um"}, file);
+  refuse_unknown_keys(
+      table, "", {"name", "created", "notes", "bits", kRepeatedLayers, "grid", "spacing_um"}, file);
   const toml::table& grid = required_table(table, "grid", file);
   const toml::table& spacing = required_table(table, "spacing_um", file);
   refuse_unknown_keys(grid, "grid.", {"layers", "width", "height"}, file);
@@ -160,6 +199,7 @@ SampleDescription parse(const fs::path& file) {
   description.created = required<std::string>(table, "", "created", file);
   description.notes = required<std::string>(table, "", "notes", file);
   description.bits = required<int>(table, "", "bits", file);
+  description.repeated_layers = repeated_layers(table, file);
   description.cuboid.size.z = required<std::int64_t>(grid, "grid.", "layers", file);
   description.cuboid.size.x = required<std::int64_t>(grid, "grid.", "width", file);
   description.cuboid.size.y = required<std::int64_t>(grid, "grid.", "height", file);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "reconstruct/geometry/cuboid.hpp"
 
@@ -15,6 +16,9 @@ struct SampleDescription {
   int bits = 8;   ///< of one colour, 8 or 16
   std::string notes;
   std::string created;  ///< ISO 8601, UTC
+  /// Section numbers, from 1, in order: of these there is no photograph, and they are the layer
+  /// before them once more.
+  std::vector<std::int64_t> repeated_layers = {};
 };
 
 /// A sample on disk: the folder and the names of what lies in it.

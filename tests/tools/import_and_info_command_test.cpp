@@ -69,6 +69,32 @@ TEST_F(Commands, ImportTakesFilesAndTheSizeOfTheStack) {
   EXPECT_EQ(description.cuboid.spacing, (reconstruct::Vector3{10, 20, 20}));
 }
 
+TEST_F(Commands, ImportBridgesGapsAndInfoTellsThem) {
+  for (const int number : {4, 7, 9}) {
+    reconstruct::save_rgb(images_ + "/face" + std::to_string(number) + ".png",
+                          reconstruct::test_image(20, 10));
+  }
+  EXPECT_THROW(run({"import", images_, "--spacing", "10,20,30", "-o", sample_}),
+               reconstruct::SampleError);
+  run({"import", images_, "--spacing", "10,20,30", "-o", sample_, "--gaps", "repeat"});
+  EXPECT_THAT(run({"info", sample_}),
+              testing::HasSubstr("the layer before once more: 4, 6-7, 9\n"));
+  EXPECT_EQ(nlohmann::json::parse(run({"info", sample_, "--json"})).at("repeated_layers"),
+            (std::vector<int>{4, 6, 7, 9}));
+}
+
+TEST_F(Commands, ImportTakesNumbersThatGoInSteps) {
+  run({"import", images_ + "/face0.png", images_ + "/face2.png", "--spacing", "10,20,30", "-o",
+       sample_, "--number-step", "2"});
+  EXPECT_EQ(SampleFolder::open(sample_).description().cuboid.size.z, 2);
+  EXPECT_THAT(run({"info", sample_}), testing::Not(testing::HasSubstr("gaps")));
+  for (const char* step : {"0", "-1", "a"}) {
+    EXPECT_THROW(
+        run({"import", images_, "--spacing", "1,1,1", "-o", sample_, "--number-step", step}),
+        CLI::ParseError);
+  }
+}
+
 TEST_F(Commands, ImportTakesNamesOfFilesInAnyEncoding) {
   const std::string images = images_ + "/l\xE4ge";  // Latin-1
   std::filesystem::create_directory(images);

@@ -63,6 +63,20 @@ TEST_F(ImageImport, MakesASampleWithAllLayersAndTheirVolume) {
   EXPECT_THAT(output_names(), ElementsAre("sample"));
 }
 
+TEST_F(ImageImport, WritesDownWhichLayersHaveNoPhotograph) {
+  save_layers(6);
+  std::filesystem::remove(images_ / "4.png");
+  const auto images = ImageSequence::find({images_}, {.repeats_over_gaps = true});
+  const SampleFolder sample = import_images(images, request_);
+  EXPECT_THAT(sample.description().repeated_layers, ElementsAre(4));
+  EXPECT_EQ(sample.description().cuboid.size.z, 6);
+  for (const int layer : {3, 4}) {
+    EXPECT_TRUE(
+        same_pixels(read_layer_image(sample.layer_path(layer)), test_image(40, 30, CV_8UC3, 3)));
+  }
+  EXPECT_TRUE(same_pixels(read_layer_image(sample.layer_path(5)), test_image(40, 30, CV_8UC3, 5)));
+}
+
 TEST_F(ImageImport, SizeIsDividedByTheNumberOfVoxels) {
   save_layers(5);
   request_.scale = StackSize{{400.0, 600.0, 50.0}};

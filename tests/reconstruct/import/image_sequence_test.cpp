@@ -20,9 +20,11 @@ class Sequence : public testing::Test {
   void save(const std::string& name, int width = 8, int type = CV_8UC3) {
     save_rgb(folder_.path() / name, test_image(width, 6, type));
   }
-  ImageSequence find() const { return ImageSequence::find({folder_.path()}); }
-  std::string error() const {
-    return message_of<SampleError>([&] { find(); });
+  ImageSequence find(const ImageNumbering& numbering = {}) const {
+    return ImageSequence::find({folder_.path()}, numbering);
+  }
+  std::string error(const ImageNumbering& numbering = {}) const {
+    return message_of<SampleError>([&] { find(numbering); });
   }
   static std::vector<std::string> names(const ImageSequence& sequence) {
     std::vector<std::string> names;
@@ -84,8 +86,47 @@ TEST_F(Sequence, NamesALinkThatLeadsNowhere) {
 TEST_F(Sequence, NamesAMissingNumber) {
   save("a08.png");
   save("a10.png");
-  EXPECT_THAT(error(),
-              AllOf(StartsWith(folder_.path().string()), HasSubstr("number 9 is missing")));
+  EXPECT_THAT(error(), AllOf(StartsWith(folder_.path().string()), HasSubstr("number 9 is missing"),
+                             HasSubstr("--gaps repeat"), HasSubstr("--number-step")));
+}
+
+TEST_F(Sequence, TakesTheImageBeforeAGapForItsLayersWhereThatIsAskedFor) {
+  for (const char* name : {"a03.png", "a04.png", "a06.png", "a09.png"}) {
+    save(name);
+  }
+  const ImageSequence sequence = find({.repeats_over_gaps = true});
+  EXPECT_THAT(names(sequence), testing::ElementsAre("a03.png", "a04.png", "a04.png", "a06.png",
+                                                    "a06.png", "a06.png", "a09.png"));
+  EXPECT_THAT(sequence.repeated(), testing::ElementsAre(3, 5, 6));
+}
+
+TEST_F(Sequence, BridgesNoGapInAStackThatHasNone) {
+  save("a1.png");
+  save("a2.png");
+  EXPECT_TRUE(find({.repeats_over_gaps = true}).repeated().empty());
+}
+
+TEST_F(Sequence, TakesAFileFarAwayForNoneOfTheStack) {
+  save("a1.png");
+  save("a1002.png");
+  EXPECT_EQ(find({.repeats_over_gaps = true}).count(), 1002);
+  save("a3000.png");
+  EXPECT_THAT(error({.repeats_over_gaps = true}),
+              AllOf(HasSubstr("a3000.png"), HasSubstr("1997 layers are missing")));
+}
+
+TEST_F(Sequence, GoesInTheStepThatIsAskedFor) {
+  for (const char* name : {"s0.png", "s10.png", "s30.png"}) {
+    save(name);
+  }
+  EXPECT_THAT(error(), HasSubstr("number 1 is missing between s0.png and s10.png"));
+  EXPECT_THAT(error({.step = 10}), HasSubstr("number 20 is missing between s10.png and s30.png"));
+  const ImageSequence bridged = find({.step = 10, .repeats_over_gaps = true});
+  EXPECT_THAT(names(bridged), testing::ElementsAre("s0.png", "s10.png", "s10.png", "s30.png"));
+  EXPECT_THAT(bridged.repeated(), testing::ElementsAre(3));
+  save("s35.png");
+  EXPECT_THAT(error({.step = 10, .repeats_over_gaps = true}),
+              AllOf(HasSubstr("s35.png"), HasSubstr("5 above"), HasSubstr("the step, 10")));
 }
 
 TEST_F(Sequence, NamesANumberThatIsThereTwice) {

@@ -71,6 +71,16 @@ TEST(SampleFolder, KeepsTextsAsTheyAre) {
   }
 }
 
+TEST(SampleFolder, KeepsWhichLayersHaveNoPhotograph) {
+  const TemporaryFolder folder;
+  SampleDescription description = example();
+  description.cuboid.size.z = 9;
+  description.repeated_layers = {2, 5, 9};
+  SampleFolder::create(folder.path() / "knee", description);
+  EXPECT_EQ(SampleFolder::open(folder.path() / "knee").description().repeated_layers,
+            description.repeated_layers);
+}
+
 TEST(SampleFolder, IsNotMadeWhereAnythingElseIs) {
   const TemporaryFolder folder;
   for (const char* name : {"a/notes.txt", "b/layers/000001.tif", "c"}) {
@@ -182,6 +192,20 @@ TEST_F(SampleToml, RefusesNumbersThatMakeNoSense) {
   EXPECT_THAT(message_for(replaced(good_toml(), "bits = 8", "bits = 12")), HasSubstr("bits is 12"));
   EXPECT_THAT(message_for(replaced(good_toml(), "z = 3", "z = -3")), HasSubstr("spacing_um.z"));
   EXPECT_THAT(message_for(replaced(good_toml(), "z = 3", "z = inf")), HasSubstr("spacing_um.z"));
+}
+
+TEST_F(SampleToml, RefusesRepeatedLayersThatThereCannotBe) {
+  EXPECT_EQ(message_for("repeated_layers = [2, 3]\n" + good_toml()), "nothing was thrown");
+  for (const char* layers : {"[1]", "[4]", "[3, 2]", "[2, 2]"}) {
+    EXPECT_THAT(message_for("repeated_layers = " + std::string(layers) + "\n" + good_toml()),
+                HasSubstr("repeated_layers must be"))
+        << layers;
+  }
+  for (const char* layers : {"2", "['2']", "[2.5]"}) {
+    EXPECT_THAT(message_for("repeated_layers = " + std::string(layers) + "\n" + good_toml()),
+                HasSubstr("repeated_layers is not of the right type"))
+        << layers;
+  }
 }
 
 TEST_F(SampleToml, NamesTheLineThatIsNotToml) {
