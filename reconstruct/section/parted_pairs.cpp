@@ -1,5 +1,6 @@
 #include "reconstruct/section/parted_pairs.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -24,24 +25,28 @@ template <typename Level>
 void PartedPairs<Level>::join(PixelPlaces<Level>& places) {
   constexpr std::size_t kPair = 8 * sizeof(Level);  // two texels, and two levels of no use
   constexpr std::size_t kPixel = 2 * kPair;         // in a row and in the next
-  if (places.parted_count == 0) {
+  const std::size_t count = places.parted_count;
+  if (count == 0) {
     return;
   }
-  const std::size_t all = kPixel * places.parted_count;
-  const std::size_t down = places.crosses ? all : static_cast<std::size_t>(places.down);
-  const std::size_t group = down > 0 ? down / kPixel * kPixel : all;
-  const std::size_t whole_groups = (all - 1) / group;
-  const std::size_t bytes = whole_groups * 2 * down + down + (all - whole_groups * group);
+  const bool in_groups = !places.crosses && places.down > 0;
+  const std::size_t down = places.crosses ? kPixel * count : static_cast<std::size_t>(places.down);
+  // A layer has at least two blocks, room for several pixels.
+  const std::size_t of_group = in_groups ? std::max(down / kPixel, std::size_t{1}) : count;
+  const std::size_t full_groups = (count - 1) / of_group;
+  const std::size_t bytes =
+      full_groups * 2 * down + down + (count - full_groups * of_group) * kPixel;
   if (texels_.size() < bytes) {
     texels_.resize(bytes);
   }
   std::byte* upper = texels_.data();
-  const std::byte* group_end = upper + group;
-  for (std::size_t i = 0; i < places.parted_count; ++i) {
-    if (upper == group_end) {
-      upper += 2 * down - group;
-      group_end = upper + group;
+  std::size_t left = of_group;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (left == 0) {
+      upper += 2 * down - of_group * kPixel;
+      left = of_group;
     }
+    --left;
     const PartedPixel& right = places.parted[i];
     const auto pixel = static_cast<std::size_t>(right.pixel);
     for (std::size_t row = 0; row < 2; ++row) {
