@@ -319,14 +319,16 @@ class Judge {
     }
   }
 
-  /// Where a frame came too late, or never, the journal says so; it was the last until then.
+  /// Where a frame came too late, or never, the journal says so. It was taken just before that, or
+  /// just after: what made it late may have been the taking.
   bool was_kept_by_the_camera(std::size_t place) const {
-    const std::string& at = witness_.frames[place].at;
-    const bool is_last = place + 1 == witness_.frames.size();
-    return std::any_of(journal_.no_frame_at.begin(), journal_.no_frame_at.end(),
-                       [&](const std::string& told) {
-                         return at <= told && (is_last || told <= witness_.frames[place + 1].at);
-                       });
+    const std::vector<WitnessedFrame>& frames = witness_.frames;
+    const auto is_beside = [&](const std::string& told) {
+      const bool is_behind_the_one_before = place == 0 || frames[place - 1].at <= told;
+      const bool is_before_the_next = place + 1 == frames.size() || told <= frames[place + 1].at;
+      return is_behind_the_one_before && is_before_the_next;
+    };
+    return std::any_of(journal_.no_frame_at.begin(), journal_.no_frame_at.end(), is_beside);
   }
 
   /// A search that a kill broke off is not recorded, and its last frame is lost, whatever it was

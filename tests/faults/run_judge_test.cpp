@@ -325,6 +325,18 @@ TEST_F(RunJudge, AllowsAnAlarmNoFrame) {
   EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 1 of "), HasSubstr("frame 2 of ")));
 }
 
+TEST_F(RunJudge, AllowsTheCameraAFrameThatItTookWhenNobodyWaitedAnyMore) {
+  run.grind(1);
+  run.take_frame(1);
+  run.note("recovery", "no frame: camera: no packet in time");
+  run.take_frame(1);
+  run.take_frame(1);
+  run.take_frame(1);
+  run.commit(1);
+  run.make_from(2);
+  EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 3 of ")));
+}
+
 TEST_F(RunJudge, AllowsTheCameraTheFrameThatItWasToldNotToHaveGiven) {
   run.grind(1);
   run.take_frame(1);
