@@ -33,8 +33,9 @@ fs::path sample_around(const fs::path& path) {
 void refuse_output_in_sample(const std::string& option, const fs::path& output) {
   // A file that takes the place of a link is written where the link lies, a folder where it leads.
   fs::path sample = sample_around(real_path(output));
-  if (sample.empty())
+  if (sample.empty()) {
     sample = sample_around(real_path(reconstruct::absolute_folder(output).parent_path()));
+  }
   if (sample.empty()) return;
   throw reconstruct::InvalidRequest(option + " " + output.string() + ": lies in the sample " +
                                     sample.string() +

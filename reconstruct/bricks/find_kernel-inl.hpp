@@ -41,9 +41,7 @@ inline bool steps_are_short(const RowPath& path) {
   });
 }
 
-/// Finds a row's bricks segment by segment. Along an axis, the pixels between two lie in no other
-/// bricks than these. So where a segment's ends tell the same along all axes but one, all its
-/// pixels lie in the ends' bricks; where they do not, its pixels are looked at one by one.
+/// Tells the bricks of a row's pixels, of any of them.
 template <bool kBorder, bool kInALayer>
 class RowBricks {
  public:
@@ -107,6 +105,9 @@ class NumberList {
   std::size_t count_ = 0;
 };
 
+/// Segment by segment. While steps are short, the pixels between two lie, along an axis, in no
+/// other bricks than these. So where a segment's ends tell the same along all axes but one, all its
+/// pixels lie in the ends' bricks; where they do not, its pixels are looked at one by one.
 template <bool kBorder, bool kInALayer>
 HWY_INLINE std::size_t find_bricks_by(const RowPath& path, int count, std::int32_t* found) {
   const Positions d;

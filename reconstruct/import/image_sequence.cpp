@@ -144,10 +144,8 @@ std::int64_t gap_between(const NumberedName& before, const NumberedName& name,
                       "for numbers in steps of N");
   }
   if (missing > kLongestGap) {
-    throw SampleError(here + ": " + std::to_string(missing) +
-                      " layers are missing before it, more "
-                      "than " +
-                      std::to_string(kLongestGap) + ": is it of this stack?");
+    throw SampleError(here + ": there are " + std::to_string(missing) +
+                      " layers missing before it; is it of this stack?");
   }
   return missing;
 }
@@ -185,6 +183,11 @@ ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs,
       repeated.push_back(static_cast<std::int64_t>(files.size()));
     }
     files.push_back(names[i].path);
+  }
+  if (repeated.size() > names.size()) {
+    throw SampleError(names.front().path.parent_path().string() + ": of " +
+                      std::to_string(files.size()) + " layers " + std::to_string(repeated.size()) +
+                      " are missing; do the numbers go in steps (--number-step)?");
   }
   return {std::move(files), std::move(repeated)};
 }

@@ -26,6 +26,7 @@ constexpr const char* kRejectedName = "rejected";
 constexpr std::int64_t kMostVoxels = 1'000'000;  // along one axis
 constexpr std::uintmax_t kMostDescriptionBytes = std::uintmax_t{1} << 20;
 constexpr const char* kRepeatedLayers = "repeated_layers";
+constexpr std::size_t kMostRepeated = 100'000;  // so that the description can be read again
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
   throw SampleError(file.string() + ": " + what);
@@ -49,6 +50,10 @@ void check(const SampleDescription& description, const fs::path& file) {
   check_spacing("x", description.cuboid.spacing.x);
   check_spacing("y", description.cuboid.spacing.y);
   check_spacing("z", description.cuboid.spacing.z);
+  if (description.repeated_layers.size() > kMostRepeated) {
+    fail(file, std::string(kRepeatedLayers) + " has more than " + std::to_string(kMostRepeated) +
+                   " numbers");
+  }
   std::int64_t before = 1;
   for (const std::int64_t layer : description.repeated_layers) {
     if (layer <= before || layer > description.cuboid.size.z) {

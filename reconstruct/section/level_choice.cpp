@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 namespace biotomy::reconstruct {
 namespace {
@@ -18,9 +17,9 @@ Counts axes_of_several_voxels(const GridSize& size) {
   return {size.x > 1, size.y > 1, size.z > 1};
 }
 
-/// The least distance in the plane, along any direction, from a voxel's centre to where the next
-/// one's influence is greatest: one over the largest singular value of the map from micrometres
-/// along `axes` to voxels. Infinite where no axis that counts runs along the plane.
+/// How far one goes in the plane, in the direction in which that is least, until a voxel is
+/// crossed: one over the largest singular value of the map from micrometres along `axes` to voxels.
+/// Infinite where no axis that counts runs along the plane.
 double finest_in_plane(const Vector3& spacing, const SectionBasis& axes, const Counts& counts) {
   const auto in_voxels = [&](const Vector3& v) {
     return Vector3{counts[0] ? v.x / spacing.x : 0.0, counts[1] ? v.y / spacing.y : 0.0,

@@ -306,29 +306,33 @@ class Judge {
     }
   }
 
+  /// Where a frame came too late, or never, the journal says so: of one each time. It was taken
+  /// just before, or just after: what made it late may have been the taking.
+  void match_lost_frames() {
+    for (const std::string& told : journal_.no_frame_at) {
+      const auto after = std::find_if(witness_.frames.begin(), witness_.frames.end(),
+                                      [&](const WitnessedFrame& frame) { return frame.at > told; });
+      const auto next = static_cast<std::size_t>(after - witness_.frames.begin());
+      if (next > 0 && !recorded_[next - 1]) {
+        recorded_[next - 1] = true;
+      } else if (next < recorded_.size()) {
+        recorded_[next] = true;
+      }
+    }
+  }
+
   void judge_frames() {
     recorded_.assign(witness_.frames.size(), false);
     match_trials();
     match_attempts();
     match_searches();
+    match_lost_frames();
     for (std::size_t i = 0; i < witness_.frames.size(); ++i) {
       const WitnessedFrame& frame = witness_.frames[i];
-      if (recorded_[i] || was_lost_by_a_stop(i) || was_kept_by_the_camera(i)) continue;
+      if (recorded_[i] || was_lost_by_a_stop(i)) continue;
       complaints_.add("frame ", frame.number, " of ", frame.at, ", of layer ",
                       layer_at(frame.face_um), ", has no record");
     }
-  }
-
-  /// Where a frame came too late, or never, the journal says so. It was taken just before that, or
-  /// just after: what made it late may have been the taking.
-  bool was_kept_by_the_camera(std::size_t place) const {
-    const std::vector<WitnessedFrame>& frames = witness_.frames;
-    const auto is_beside = [&](const std::string& told) {
-      const bool is_behind_the_one_before = place == 0 || frames[place - 1].at <= told;
-      const bool is_before_the_next = place + 1 == frames.size() || told <= frames[place + 1].at;
-      return is_behind_the_one_before && is_before_the_next;
-    };
-    return std::any_of(journal_.no_frame_at.begin(), journal_.no_frame_at.end(), is_beside);
   }
 
   /// A search that a kill broke off is not recorded, and its last frame is lost, whatever it was

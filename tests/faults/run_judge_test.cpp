@@ -326,14 +326,14 @@ TEST_F(RunJudge, AllowsAnAlarmNoFrame) {
 }
 
 TEST_F(RunJudge, AllowsTheCameraAFrameThatItTookWhenNobodyWaitedAnyMore) {
-  run.grind(1);
-  run.take_frame(1);
+  run.make(1);
+  run.grind(2);
   run.note("recovery", "no frame: camera: no packet in time");
-  run.take_frame(1);
-  run.take_frame(1);
-  run.take_frame(1);
-  run.commit(1);
-  run.make_from(2);
+  run.take_frame(2);
+  run.take_frame(2);
+  run.take_frame(2);
+  run.commit(2);
+  run.make_from(3);
   EXPECT_THAT(verdict(), ElementsAre(HasSubstr("frame 3 of ")));
 }
 

@@ -108,11 +108,21 @@ TEST_F(Sequence, BridgesNoGapInAStackThatHasNone) {
 
 TEST_F(Sequence, TakesAFileFarAwayForNoneOfTheStack) {
   save("a1.png");
-  save("a1002.png");
-  EXPECT_EQ(find({.repeats_over_gaps = true}).count(), 1002);
-  save("a3000.png");
+  save("a1003.png");
   EXPECT_THAT(error({.repeats_over_gaps = true}),
-              AllOf(HasSubstr("a3000.png"), HasSubstr("1997 layers are missing")));
+              AllOf(HasSubstr("a1003.png"), HasSubstr("1001 layers missing")));
+}
+
+TEST_F(Sequence, BridgesNoMoreLayersThanItHasImages) {
+  for (const char* name : {"a10.png", "a11.png", "a15.png"}) {
+    save(name);
+  }
+  EXPECT_EQ(find({.repeats_over_gaps = true}).count(), 6);
+  save("a17.png");
+  EXPECT_EQ(find({.repeats_over_gaps = true}).count(), 8);
+  save("a20.png");
+  EXPECT_THAT(error({.repeats_over_gaps = true}),
+              AllOf(HasSubstr("of 11 layers 6 are missing"), HasSubstr("--number-step")));
 }
 
 TEST_F(Sequence, GoesInTheStepThatIsAskedFor) {

@@ -81,6 +81,22 @@ TEST(SampleFolder, KeepsWhichLayersHaveNoPhotograph) {
             description.repeated_layers);
 }
 
+TEST(SampleFolder, CanBeReadWithAllTheRepeatedLayersThatItMayHave) {
+  const TemporaryFolder folder;
+  SampleDescription description = example();
+  description.cuboid.size.z = 1'000'000;
+  for (int i = 0; i < 100'000; ++i) {
+    description.repeated_layers.push_back(900'001 + i);
+  }
+  SampleFolder::create(folder.path() / "knee", description);
+  EXPECT_EQ(SampleFolder::open(folder.path() / "knee").description().repeated_layers.size(),
+            100'000U);
+  description.repeated_layers.insert(description.repeated_layers.begin(), 2);
+  EXPECT_THAT(
+      message_of<SampleError>([&] { SampleFolder::create(folder.path() / "hip", description); }),
+      HasSubstr("repeated_layers has more than 100000"));
+}
+
 TEST(SampleFolder, IsNotMadeWhereAnythingElseIs) {
   const TemporaryFolder folder;
   for (const char* name : {"a/notes.txt", "b/layers/000001.tif", "c"}) {
