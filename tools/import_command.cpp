@@ -126,8 +126,12 @@ void run(const Options& options) {
 void add_import_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "import", "Makes a sample of a folder, or of files, of numbered PNG, TIFF or JPEG images.");
-  command->add_option("IMAGES", options->inputs, "One folder, or the files of all layers")
+      "import",
+      "Makes a sample of a folder, or of files, of numbered PNG, TIFF or JPEG images, or of the "
+      "pages of one TIFF.");
+  command
+      ->add_option("IMAGES", options->inputs,
+                   "One folder, or the files of all layers, or one TIFF whose pages they are")
       ->required();
   CLI::Option* spacing =
       command

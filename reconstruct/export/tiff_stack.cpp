@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -38,6 +39,15 @@ std::string layer_name(std::int64_t layer) {
   return name.data();
 }
 
+/// The distance of layers, which TIFF has no tag for, as ImageJ writes and reads it; readers know
+/// its text by the version that it begins with. ImageJ then takes the resolution in micrometres
+/// too.
+std::string layer_distance(double micrometres) {
+  std::array<char, 32> number{};
+  std::to_chars(number.data(), number.data() + number.size(), micrometres);
+  return std::string("ImageJ=1.53t\nunit=um\nspacing=") + number.data() + '\n';
+}
+
 TiffFile create_layer(const fs::path& path, const VoxelRegion& region, const PyramidLevel& level,
                       int bits, int rows_of_a_strip) {
   const auto bytes = static_cast<std::uint64_t>(region.x.count() * region.y.count()) * kChannels *
@@ -56,6 +66,7 @@ TiffFile create_layer(const fs::path& path, const VoxelRegion& region, const Pyr
   file.set(TIFFTAG_RESOLUTIONUNIT, RESUNIT_CENTIMETER);
   file.set(TIFFTAG_XRESOLUTION, kMicrometresPerCentimetre / level.spacing.x);
   file.set(TIFFTAG_YRESOLUTION, kMicrometresPerCentimetre / level.spacing.y);
+  file.set(TIFFTAG_IMAGEDESCRIPTION, layer_distance(level.spacing.z).c_str());
   file.set(TIFFTAG_SOFTWARE, "Biotomy " BIOTOMY_VERSION);
   return file;
 }

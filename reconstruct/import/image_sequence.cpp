@@ -18,8 +18,9 @@ constexpr std::size_t kMostDigits = 18;     // fits into 64 bits
 constexpr std::int64_t kLongestGap = 1000;  // layers: beyond, a stray file is more likely
 
 constexpr const char* kNoNumber =
-    ": has no number in its name, which tells the layer, as in layer_0001.tif; split a file of "
-    "several pages into one file a layer";
+    ": has no number in its name, which tells the layer, as in layer_0001.tif; a TIFF whose pages "
+    "are "
+    "the layers is given by its own name, alone";
 
 /// A file name cut at its number.
 struct NumberedName {
@@ -150,6 +151,14 @@ std::int64_t gap_between(const NumberedName& before, const NumberedName& name,
   return missing;
 }
 
+void check_unnumbered(const fs::path& path, const ImageNumbering& numbering) {
+  if (numbering.step != 1 || numbering.repeats_over_gaps) {
+    throw InvalidRequest(path.string() +
+                         ": its pages are the layers and have no numbers: leave out --number-step "
+                         "and --gaps");
+  }
+}
+
 std::string describe(cv::Size size, int type) {
   return std::to_string(size.width) + " × " + std::to_string(size.height) + " pixels of " +
          (type == CV_8UC3 ? "8" : "16") + " bits";
@@ -159,7 +168,16 @@ std::string describe(cv::Size size, int type) {
 
 ImageSequence::ImageSequence(std::vector<fs::path> files, std::vector<std::int64_t> repeated)
     : files_(std::move(files)), repeated_(std::move(repeated)) {
-  const cv::Mat first = read_image_file(files_.front());
+  take_size();
+}
+
+ImageSequence::ImageSequence(const fs::path& file, std::vector<TiffPage> pages)
+    : files_(pages.size(), file), pages_(std::move(pages)) {
+  take_size();
+}
+
+void ImageSequence::take_size() {
+  const cv::Mat first = read_any(1);
   size_ = first.size();
   type_ = first.type();
 }
@@ -167,6 +185,14 @@ ImageSequence::ImageSequence(std::vector<fs::path> files, std::vector<std::int64
 ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs,
                                   const ImageNumbering& numbering) {
   std::error_code error;
+  if (inputs.size() == 1 && is_tiff_name(inputs.front()) &&
+      fs::is_regular_file(inputs.front(), error)) {
+    std::vector<TiffPage> pages = pages_of_stack(inputs.front());
+    if (pages.size() > 1) {
+      check_unnumbered(inputs.front(), numbering);
+      return {inputs.front(), std::move(pages)};
+    }
+  }
   std::vector<NumberedName> names = inputs.size() == 1 && fs::is_directory(inputs.front(), error)
                                         ? names_in_folder(inputs.front())
                                         : names_of_files(inputs);
@@ -192,13 +218,27 @@ ImageSequence ImageSequence::find(const std::vector<fs::path>& inputs,
   return {std::move(files), std::move(repeated)};
 }
 
+cv::Mat ImageSequence::read_any(std::int64_t layer) const {
+  const auto place = static_cast<std::size_t>(layer - 1);
+  if (pages_.empty()) {
+    return read_image_file(files_[place]);
+  }
+  try {
+    return read_image_page(files_[place], pages_[place]);
+  } catch (const SampleError& error) {
+    throw SampleError(std::string(error.what()) + ", layer " + std::to_string(layer) + " in it");
+  }
+}
+
 cv::Mat ImageSequence::read(std::int64_t layer) const {
-  const fs::path& path = files_[static_cast<std::size_t>(layer - 1)];
-  cv::Mat image = read_image_file(path);
+  cv::Mat image = read_any(layer);
   if (image.size() != size_ || image.type() != type_) {
-    throw SampleError(path.string() + ": is " + describe(image.size(), image.type()) +
-                      ", expected " + describe(size_, type_) + " like " +
-                      files_.front().filename().string());
+    const std::string difference = "is " + describe(image.size(), image.type()) + ", expected " +
+                                   describe(size_, type_) + " like ";
+    const std::string path = files_[static_cast<std::size_t>(layer - 1)].string();
+    throw SampleError(pages_.empty() ? path + ": " + difference + files_.front().filename().string()
+                                     : path + ": layer " + std::to_string(layer) + " in it " +
+                                           difference + "its first");
   }
   return image;
 }

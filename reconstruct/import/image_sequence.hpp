@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "reconstruct/picture/image_file.hpp"
+#include "reconstruct/picture/tiff_pages.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -18,19 +19,21 @@ struct ImageNumbering {
 };
 
 /// Photographs of a stack in the order of the numbers in their names (the last digits in the name:
-/// 1, 2, 10, not 1, 10, 2). Layer 1 is the lowest number, whatever it is.
+/// 1, 2, 10, not 1, 10, 2). Layer 1 is the lowest number, whatever it is. Or the pages of one TIFF,
+/// in their order.
 class ImageSequence {
  public:
   /// `inputs` is one folder, of which the images with a number in the name are taken and the rest
-  /// is not looked at, or any number of image files. Throws SampleError when there is none, when a
-  /// number is there twice, off the step or, unless gaps are bridged, missing, or when names differ
-  /// in more than the number.
+  /// is not looked at, or any number of image files. A TIFF of several pages, alone, needs no
+  /// number. Throws SampleError when there is none, when a number is there twice, off the step or,
+  /// unless gaps are bridged, missing, or when names differ in more than the number; InvalidRequest
+  /// for a numbering where there are pages.
   static ImageSequence find(const std::vector<std::filesystem::path>& inputs,
                             const ImageNumbering& numbering = {});
 
   std::int64_t count() const { return static_cast<std::int64_t>(files_.size()); }
 
-  /// Of every layer; that of a layer in a gap is there more than once.
+  /// Of every layer; that of a layer in a gap is there more than once, and so is one of pages.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
   /// The layers in gaps, from 1, in order.
@@ -46,9 +49,13 @@ class ImageSequence {
 
  private:
   ImageSequence(std::vector<std::filesystem::path> files, std::vector<std::int64_t> repeated);
+  ImageSequence(const std::filesystem::path& file, std::vector<TiffPage> pages);
+  cv::Mat read_any(std::int64_t layer) const;
+  void take_size();
 
   std::vector<std::filesystem::path> files_;
   std::vector<std::int64_t> repeated_;
+  std::vector<TiffPage> pages_;  // of the layers, where they are those of one file
   cv::Size size_;
   int type_ = CV_8UC3;
 };

@@ -74,21 +74,35 @@ cv::Mat read_by_format(const fs::path& path) {
   }
 }
 
+/// What `read` returns; its complaints of memory name the file.
+template <typename Read>
+cv::Mat with_memory_for(const fs::path& path, const Read& read) {
+  constexpr const char* kNoMemory = ": there is no memory for the picture";
+  try {
+    return read();
+  } catch (const cv::Exception&) {
+    throw SampleError(path.string() + kNoMemory);
+  } catch (const std::bad_alloc&) {
+    throw SampleError(path.string() + kNoMemory);
+  }
+}
+
 }  // namespace
 
 bool is_image_name(const fs::path& path) {
   return format_of_name(path) != Format::unknown;
 }
 
+bool is_tiff_name(const fs::path& path) {
+  return format_of_name(path) == Format::tiff;
+}
+
 cv::Mat read_image_file(const fs::path& path) {
-  constexpr const char* kNoMemory = ": there is no memory for the picture";
-  try {
-    return read_by_format(path);
-  } catch (const cv::Exception&) {
-    throw SampleError(path.string() + kNoMemory);
-  } catch (const std::bad_alloc&) {
-    throw SampleError(path.string() + kNoMemory);
-  }
+  return with_memory_for(path, [&] { return read_by_format(path); });
+}
+
+cv::Mat read_image_page(const fs::path& path, TiffPage page) {
+  return with_memory_for(path, [&] { return read_tiff_page(path, page); });
 }
 
 }  // namespace biotomy::reconstruct

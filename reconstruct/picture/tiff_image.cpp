@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -136,40 +135,6 @@ std::vector<cv::Mat> read_samples(const TiffFile& file, const Structure& structu
   return samples;
 }
 
-bool is_picture(const TiffFile& file) {
-  const auto kind = file.number<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0);
-  return (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0;
-}
-
-/// Turns to the one picture in the file, past smaller copies of it and masks. Goes from page to
-/// page: libtiff would begin at the first one for each that it is asked for by its number.
-void go_to_picture(const TiffFile& file) {
-  std::optional<tdir_t> picture;
-  for (;;) {
-    if (is_picture(file)) {
-      if (picture) {
-        file.fail(
-            "holds more than one picture: split it into files of one picture each, numbered by "
-            "their layers");
-      }
-      picture = TIFFCurrentDirectory(file.get());
-    }
-    if (TIFFLastDirectory(file.get()) != 0) {
-      break;
-    }
-    if (TIFFReadDirectory(file.get()) == 0) {
-      file.fail("is damaged: the page behind its page " +
-                std::to_string(TIFFCurrentDirectory(file.get()) + 1) + " cannot be read");
-    }
-  }
-  if (!picture) {
-    file.fail("holds no picture, only smaller copies or masks of one");
-  }
-  if (*picture != TIFFCurrentDirectory(file.get()) && TIFFSetDirectory(file.get(), *picture) == 0) {
-    file.fail("is damaged: its page " + std::to_string(*picture + 1) + " cannot be read");
-  }
-}
-
 /// Of each pixel, those that the file declares to be no colours, as alpha is.
 int extra_samples(const TiffFile& file) {
   std::uint16_t count = 0;
@@ -177,11 +142,8 @@ int extra_samples(const TiffFile& file) {
   return TIFFGetField(file.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds) == 1 ? count : 0;
 }
 
-}  // namespace
-
-cv::Mat read_tiff_image(const std::filesystem::path& path) {
-  const TiffFile file = TiffFile::open(path);
-  go_to_picture(file);
+/// The page that the file is turned to.
+cv::Mat read_page(const TiffFile& file) {
   if (file.number<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_JPEG) {
     TIFFSetField(file.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);  // rather than YCbCr
   }
@@ -212,6 +174,20 @@ cv::Mat read_tiff_image(const std::filesystem::path& path) {
     return rgb;
   }
   file.fail("is neither grey nor RGB: convert it");
+}
+
+}  // namespace
+
+cv::Mat read_tiff_image(const std::filesystem::path& path) {
+  const TiffFile file = TiffFile::open(path);
+  go_to_only_picture(file);
+  return read_page(file);
+}
+
+cv::Mat read_tiff_page(const std::filesystem::path& path, TiffPage page) {
+  const TiffFile file = TiffFile::open(path);
+  go_to_page(file, page);
+  return read_page(file);
 }
 
 }  // namespace biotomy::reconstruct

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/image_file.hpp"
+#include "reconstruct/picture/picture_description.hpp"
 #include "reconstruct/picture/tiff_file.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_files.hpp"
@@ -71,6 +73,9 @@ TEST_P(ATiffStack, IsPlainEnoughForAnyReader) {
   EXPECT_EQ(file.number<std::uint16_t>(TIFFTAG_COMPRESSION, 0), COMPRESSION_ADOBE_DEFLATE);
   EXPECT_EQ(file.number<std::uint16_t>(TIFFTAG_PREDICTOR, 1), 1);
   EXPECT_FLOAT_EQ(file.number<float>(TIFFTAG_XRESOLUTION, 0), 1000.0F);  // 10 micrometres
+  const std::string spacing = std::to_string(std::lround(sample_.description().cuboid.spacing.z));
+  EXPECT_EQ(picture_description(request_.output / "000001.tif"),
+            "ImageJ=1.53t\nunit=um\nspacing=" + spacing + "\n");
 }
 
 TEST_P(ATiffStack, LeavesNothingWhenAChunkIsDamagedOrItIsInterrupted) {

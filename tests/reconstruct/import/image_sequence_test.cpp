@@ -1,6 +1,8 @@
 #include "reconstruct/import/image_sequence.hpp"
 
 #include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "reconstruct/errors.hpp"
 #include "tests/reconstruct/test_files.hpp"
@@ -60,6 +62,57 @@ TEST_F(Sequence, TakesFilesInAnyOrder) {
   EXPECT_THAT(names(sequence), testing::ElementsAre("1.png", "2.png"));
 }
 
+class SequenceOfPages : public Sequence {
+ protected:
+  SequenceOfPages() {
+    for (unsigned i = 0; i < 4; ++i) {
+      pages_.push_back(test_image(8, 6, CV_8UC3, i));
+    }
+  }
+  void save_pages() const {
+    std::vector<cv::Mat> bgr(pages_.size());
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+      cv::cvtColor(pages_[i], bgr[i], cv::COLOR_RGB2BGR);
+    }
+    cv::imwritemulti(path_.string(), bgr);
+  }
+
+  std::filesystem::path path_ = folder_ / "stack.tif";
+  std::vector<cv::Mat> pages_;
+};
+
+TEST_F(SequenceOfPages, IsThoseOfOneFileInTheirOrder) {
+  save_pages();
+  const ImageSequence sequence = ImageSequence::find({path_});
+  ASSERT_EQ(sequence.count(), 4);
+  EXPECT_EQ(sequence.files(), std::vector<std::filesystem::path>(4, path_));
+  for (std::int64_t layer = 1; layer <= 4; ++layer) {
+    EXPECT_TRUE(same_pixels(sequence.read(layer), pages_[static_cast<std::size_t>(layer - 1)]));
+  }
+}
+
+TEST_F(SequenceOfPages, NamesAPageOfAnotherSize) {
+  pages_[2] = test_image(9, 6);
+  save_pages();
+  const ImageSequence sequence = ImageSequence::find({path_});
+  EXPECT_EQ(message_of<SampleError>([&] { sequence.read(3); }),
+            path_.string() +
+                ": layer 3 in it is 9 × 6 pixels of 8 bits, expected 8 × 6 pixels of 8 bits like "
+                "its first");
+}
+
+TEST_F(SequenceOfPages, HasNoNumbers) {
+  save_pages();
+  EXPECT_THAT(message_of<InvalidRequest>([&] { ImageSequence::find({path_}, {.step = 2}); }),
+              AllOf(StartsWith(path_.string()), HasSubstr("--number-step")));
+}
+
+TEST_F(SequenceOfPages, IsNoneInAFolderOfFiles) {
+  path_ = folder_ / "stack1.tif";
+  save_pages();
+  EXPECT_THAT(error(), HasSubstr("give this file alone"));
+}
+
 TEST_F(Sequence, DoesNotLookAtOtherThingsInTheFolder) {
   save("5.png");
   save("overview.png");
@@ -71,7 +124,7 @@ TEST_F(Sequence, DoesNotLookAtOtherThingsInTheFolder) {
 
 TEST_F(Sequence, SaysHowLayersAreNamedWhereNoImageHasANumber) {
   save("stack.tif");
-  const auto advice = AllOf(HasSubstr("layer_0001.tif"), HasSubstr("one file a layer"));
+  const auto advice = AllOf(HasSubstr("layer_0001.tif"), HasSubstr("whose pages are the layers"));
   EXPECT_THAT(error(), AllOf(StartsWith((folder_ / "stack.tif").string()), advice));
   EXPECT_THAT(message_of<SampleError>([&] { ImageSequence::find({folder_ / "stack.tif"}); }),
               advice);
