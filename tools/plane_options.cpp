@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/section/recorded_plane.hpp"
 
 namespace biotomy::tools {
 namespace {
@@ -82,6 +83,8 @@ void add_plane_options(CLI::App& command, PlaneOptions& options) {
                      "through the sample's middle without --through");
   command.add_option("--azimuth", options.azimuth,
                      "With --tilt: degrees of the normal about z, from x towards y; 0");
+  command.add_option("--plane-of", options.plane_of,
+                     "Instead: the plane of an earlier section; its .json, .png or .tif");
 }
 
 // An option of up to three arguments would take the sample's name for one of them where that comes
@@ -112,13 +115,17 @@ void take_unquoted_points(CLI::App& command) {
 
 Plane plane_of(const PlaneOptions& options, reconstruct::LengthUnit unit, const Cuboid& cuboid) {
   const bool by_points_or_normal = options.points || options.normal;
-  const int ways = static_cast<int>(by_points_or_normal) +
-                   static_cast<int>(options.layer.has_value()) +
-                   static_cast<int>(options.tilt.has_value());
-  if (ways != 1 || (options.azimuth && !options.tilt) || (options.layer && options.through)) {
+  const int ways =
+      static_cast<int>(by_points_or_normal) + static_cast<int>(options.layer.has_value()) +
+      static_cast<int>(options.tilt.has_value()) + static_cast<int>(options.plane_of.has_value());
+  const bool takes_point = by_points_or_normal || options.tilt;
+  if (ways != 1 || (options.azimuth && !options.tilt) || (options.through && !takes_point)) {
     throw InvalidRequest(
         "which plane? give --points, or --normal with --through, or --layer, or --tilt with or "
-        "without --azimuth and --through");
+        "without --azimuth and --through, or --plane-of");
+  }
+  if (options.plane_of) {
+    return reconstruct::recorded_plane(*options.plane_of);
   }
   if (by_points_or_normal) {
     return reconstruct::parse_plane("--", options, unit, cuboid.spacing);

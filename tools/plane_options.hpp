@@ -18,6 +18,7 @@ struct PlaneOptions : reconstruct::PlaneText {
   std::optional<std::string> layer;
   std::optional<std::string> tilt;
   std::optional<std::string> azimuth;
+  std::optional<std::string> plane_of;  // a file
 };
 
 /// The command leaves arguments that it does not know to `take_unquoted_points`.
@@ -28,9 +29,10 @@ void add_plane_options(CLI::App& command, PlaneOptions& options);
 /// for any other argument that the command does not know.
 void take_unquoted_points(CLI::App& command);
 
-/// The plane in a sample of this size: one of three points, a normal and a point, a layer, or
-/// angles; layers and angles mean what they do in the page's explorer. Throws InvalidRequest that
-/// names the option, SampleError for a layer that the sample does not have.
+/// The plane in a sample of this size: one of three points, a normal and a point, a layer, angles,
+/// or an earlier section; layers and angles mean what they do in the page's explorer. Throws
+/// InvalidRequest that names the option, SampleError for a layer that the sample does not have and
+/// for a file that names no plane.
 reconstruct::Plane plane_of(const PlaneOptions& options, reconstruct::LengthUnit unit,
                             const reconstruct::Cuboid& cuboid);
 

@@ -169,6 +169,10 @@ void run(const Options& options) {
   if (!options.layers.empty() && options.sample.empty()) {
     throw InvalidRequest("--layers goes with --sample");
   }
+  if (!options.sweep.empty() && (options.strict || !options.configuration.empty())) {
+    throw InvalidRequest(
+        "--strict and --config do not go with --sweep, which ranks frames and rejects none");
+  }
   if (!options.sweep.empty()) {
     rank(options);
     return;

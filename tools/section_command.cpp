@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,9 @@
 #include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/section/cache_need.hpp"
+#include "reconstruct/section/frame_canvas.hpp"
 #include "reconstruct/section/parameter_text.hpp"
+#include "reconstruct/section/scale_bar.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
 #include "reconstruct/section/section_record.hpp"
@@ -44,6 +47,7 @@ struct SectionArguments {
   PlaneOptions plane;
   SectionOptions options;
   PictureOptions picture;
+  bool scale_bar = false;
   bool json = false;
   bool stats = false;
 };
@@ -66,7 +70,7 @@ struct Durations {
 void print_statistics(const Section& section, const Volume& volume, const Durations& durations) {
   const auto& read = volume.statistics();
   const nlohmann::ordered_json line{
-      {"pixels", section.image.total()},
+      {"pixels", std::int64_t{section.outline.grid.columns} * section.outline.grid.rows},
       {"chunks_touched", section.statistics.chunks_touched},
       {"bytes_read", read.bytes_read.load()},
       {"read_s", 1e-9 * static_cast<double>(read.read_ns.load())},
@@ -104,6 +108,22 @@ Section cut(const OpenedSample& sample, const reconstruct::SectionRequest& reque
   return section;
 }
 
+struct Picture {
+  cv::Mat image;
+  cv::Point first;  // pixel of the section
+};
+
+/// The section's picture, with a strip below it for the scale bar if there is to be one.
+Picture picture_of(Section& section, bool scale_bar, const reconstruct::Colour& background) {
+  cv::Mat image = std::exchange(section.image, {});
+  if (!scale_bar) {
+    return {image, {0, 0}};
+  }
+  const reconstruct::FrameCanvas canvas(
+      image.size(), "", background, reconstruct::scale_bar(image.cols, section.outline.grid.pixel));
+  return {canvas.draw(image, ""), canvas.place_of(image.size())};
+}
+
 void run_section(const SectionArguments& arguments, const CLI::App& command) {
   const Interruption interruption;
   reconstruct::picture_format(arguments.output);
@@ -119,21 +139,22 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
   sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   const reconstruct::Plane plane = plane_of(arguments.plane, chosen.unit, cuboid);
-  const Section section = cut(sample,
-                              {plane, reconstruct::section_basis(chosen.basis, plane),
-                               style_for(chosen, arguments.options, cuboid.spacing)},
-                              chosen, arguments.output);
+  Section section = cut(sample,
+                        {plane, reconstruct::section_basis(chosen.basis, plane),
+                         style_for(chosen, arguments.options, cuboid.spacing)},
+                        chosen, arguments.output);
   durations.section = Clock::now() - start;
+  start = Clock::now();
+  const Picture picture = picture_of(section, arguments.scale_bar, chosen.style.background);
   const reconstruct::SectionRecord record{sample.folder.description().name,
                                           cuboid,
                                           plane,
                                           section.outline,
-                                          section.image.size(),
-                                          {0, 0},
+                                          picture.image.size(),
+                                          picture.first,
                                           section.statistics.levels,
                                           command_parameters(command)};
-  start = Clock::now();
-  reconstruct::write_section_image(arguments.output, section.image,
+  reconstruct::write_section_image(arguments.output, picture.image,
                                    reconstruct::picture_notes(record), quality);
   durations.encode = Clock::now() - start;
   if (arguments.json) {
@@ -156,6 +177,8 @@ void add_section_command(CLI::App& app) {
   add_plane_options(*command, arguments->plane);
   add_section_options(*command, arguments->options);
   add_picture_options(*command, arguments->picture);
+  command->add_flag("--scale-bar", arguments->scale_bar,
+                    "A scale bar in a strip below the section, as a series has it");
   command->add_flag("--json", arguments->json,
                     "Beside the picture a .json of its name: the plane, the polygon, and the "
                     "matrices from pixels to the sample and back");

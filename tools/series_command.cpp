@@ -175,8 +175,10 @@ void add_shared_options(CLI::App& command, SeriesArguments& arguments) {
                    "No angle or offset below the pictures, and no room for it");
   command.add_flag("--no-scale-bar", arguments.no_scale_bar,
                    "No scale bar below the pictures; with --no-label nothing but the pictures");
-  command.add_option("--movie", arguments.movie, "Also a film of them, .mp4 (H.264)");
+  CLI::Option* movie =
+      command.add_option("--movie", arguments.movie, "Also a film of them, .mp4 (H.264)");
   command.add_option("--rate", arguments.rate, "Frames of the film in a second")
+      ->needs(movie)
       ->capture_default_str();
   add_section_options(command, arguments.options);
   add_picture_options(command, arguments.picture);

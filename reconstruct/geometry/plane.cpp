@@ -16,6 +16,7 @@ namespace {
 constexpr double kNegligibleComponent = 1e-11;
 constexpr double kFlatTriangle = 1e-9;
 constexpr double kCoordinateRounding = 1e-12;
+constexpr double kLengthRounding = 1e-15;  // of a vector that was divided by its length
 
 double largest_component(const Vector3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -25,15 +26,18 @@ bool is_finite(const Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-double without_rounding(double component) {
-  return std::abs(component) < kNegligibleComponent ? 0.0 : component;
+Vector3 without_rounding(const Vector3& v) {
+  const double negligible = kNegligibleComponent * largest_component(v);
+  const auto kept = [&](double component) {
+    return std::abs(component) < negligible ? 0.0 : component;
+  };
+  return {kept(v.x), kept(v.y), kept(v.z)};
 }
 
 // Scaled by its largest component first, so that no length overflows or vanishes.
 Vector3 unit_normal(const Vector3& v) {
   const double largest = largest_component(v);
-  const Vector3 scaled{without_rounding(v.x / largest), without_rounding(v.y / largest),
-                       without_rounding(v.z / largest)};
+  const Vector3 scaled = without_rounding({v.x / largest, v.y / largest, v.z / largest});
   const double length = norm(scaled);
   return {scaled.x / length, scaled.y / length, scaled.z / length};
 }
@@ -83,6 +87,9 @@ Plane Plane::from_equation(double a, double b, double c, double d) {
   const Vector3 normal{a, b, c};
   if (!is_finite(normal) || normal == Vector3{} || !std::isfinite(d)) {
     throw InvalidRequest("a plane Ax+By+Cz+D=0 needs finite A, B, C, D and one of A, B, C not 0");
+  }
+  if (std::abs(norm(normal) - 1.0) <= kLengthRounding) {
+    return {without_rounding(normal), d};  // dividing once more would change the last bits
   }
   const double largest = largest_component(normal);
   const double length = norm((1.0 / largest) * normal);

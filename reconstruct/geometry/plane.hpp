@@ -18,7 +18,8 @@ class Plane {
   /// Through a point in micrometres; the normal may have any length above zero and keeps its sign.
   static Plane from_normal(const Vector3& normal, const Vector3& point);
 
-  /// a·x + b·y + c·z + d = 0 with x, y, z in micrometres.
+  /// a·x + b·y + c·z + d = 0 with x, y, z in micrometres. A plane's own normal and offset make that
+  /// plane again, to the bit.
   static Plane from_equation(double a, double b, double c, double d);
 
   const Vector3& normal() const { return normal_; }

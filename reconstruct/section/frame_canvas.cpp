@@ -16,6 +16,8 @@ constexpr double kLeastTextScale = 0.5;
 constexpr int kMargin = 8;
 constexpr double kLevels8To16 = 257.0;
 constexpr Colour kWhite{255, 255, 255};
+constexpr Colour kBlack{0, 0, 0};
+constexpr double kLight = 128.0;  // the luma from which black is seen better than white
 
 int even(int length) {
   return length + length % 2;
@@ -30,6 +32,12 @@ cv::Scalar levels(const Colour& colour, int depth) {
   return {scale * colour[0], scale * colour[1], scale * colour[2]};
 }
 
+/// What can be read on a background, by its luma (ITU-R BT.601, section 2.5.1).
+Colour ink_on(const Colour& background) {
+  const double luma = 0.299 * background[0] + 0.587 * background[1] + 0.114 * background[2];
+  return luma < kLight ? kWhite : kBlack;
+}
+
 int text_width(const std::string& text, double text_scale) {
   int baseline = 0;
   return cv::getTextSize(text, kFont, text_scale, stroke(text_scale), &baseline).width;
@@ -41,6 +49,7 @@ FrameCanvas::FrameCanvas(cv::Size largest_picture, const std::string& longest_la
                          const Colour& background, std::optional<ScaleBar> bar)
     : text_scale_(std::max(kLeastTextScale, largest_picture.width / kWidthForFullSize)),
       background_(background),
+      ink_(ink_on(background)),
       bar_(std::move(bar)) {
   const cv::Size text =
       cv::getTextSize(longest_label, kFont, text_scale_, stroke(text_scale_), &below_baseline_);
@@ -58,22 +67,22 @@ int FrameCanvas::strip_width(int label_width) const {
 }
 
 void FrameCanvas::draw_bar(cv::Mat& frame, int baseline) const {
-  const cv::Scalar white = levels(kWhite, frame.depth());
+  const cv::Scalar ink = levels(ink_, frame.depth());
   const int text_left = size_.width - kMargin - text_width(bar_->label, text_scale_);
-  cv::putText(frame, bar_->label, {text_left, baseline}, kFont, text_scale_, white,
+  cv::putText(frame, bar_->label, {text_left, baseline}, kFont, text_scale_, ink,
               stroke(text_scale_), cv::LINE_AA);
   const int thickness = std::max(2, text_height_ / 4);
   const cv::Rect bar(text_left - kMargin - bar_->pixels,
                      baseline - text_height_ / 2 - thickness / 2, bar_->pixels, thickness);
-  frame(bar).setTo(white);
+  frame(bar).setTo(ink);
 }
 
 cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {
   cv::Mat frame(size_, type, levels(background_, CV_MAT_DEPTH(type)));
   const int baseline = size_.height - kMargin - below_baseline_;
   if (!label.empty()) {
-    cv::putText(frame, label, {kMargin, baseline}, kFont, text_scale_,
-                levels(kWhite, frame.depth()), stroke(text_scale_), cv::LINE_AA);
+    cv::putText(frame, label, {kMargin, baseline}, kFont, text_scale_, levels(ink_, frame.depth()),
+                stroke(text_scale_), cv::LINE_AA);
   }
   if (bar_) {
     draw_bar(frame, baseline);

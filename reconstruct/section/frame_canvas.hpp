@@ -12,7 +12,8 @@ namespace biotomy::reconstruct {
 
 /// What the frames of a series are drawn on: as wide and as high as the largest picture, a strip
 /// below it for the label on the left and the scale bar on the right, so that they cover none of
-/// the picture; no strip where there is neither. Sides are even, as films want them.
+/// the picture; no strip where there is neither. Both are white, on a light background black. Sides
+/// are even, as films want them.
 class FrameCanvas {
  public:
   /// `longest_label` is ASCII and has to fit, empty when pictures have no label; so has the bar, if
@@ -43,6 +44,7 @@ class FrameCanvas {
   int below_baseline_ = 0;
   cv::Size size_;
   Colour background_;
+  Colour ink_;
   std::optional<ScaleBar> bar_;
 };
 

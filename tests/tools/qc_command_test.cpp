@@ -255,6 +255,8 @@ TEST_F(QcCommand, AsksForOneThingToJudge) {
   EXPECT_THROW(run({put("1.png", face(1)), "--sample", "s"}), InvalidRequest);
   EXPECT_THROW(run({put("1.png", face(1)), "--layers", "1..2"}), InvalidRequest);
   EXPECT_THROW(run({"--sweep", put("1.png", face(1))}), InvalidRequest);
+  EXPECT_THROW(run({"--sweep", images_, "--strict"}), InvalidRequest);
+  EXPECT_THROW(run({"--sweep", images_, "--config", put("1.png", face(1))}), InvalidRequest);
 }
 
 }  // namespace

@@ -99,6 +99,42 @@ TEST_F(SectionAndSeries, ASectionIsTheSameInBothLosslessFormats) {
                                        reconstruct::test_image(40, 30, CV_8UC3, 2)));
 }
 
+TEST_F(SectionAndSeries, AScaleBarLiesBelowTheSectionAndTheRecordKnows) {
+  section(folder_ / "a.png");
+  section(folder_ / "b.png", {"--scale-bar", "--json"});
+  const cv::Mat plain = read_image_file(folder_ / "a.png");
+  const cv::Mat with_bar = read_image_file(folder_ / "b.png");
+  const nlohmann::json sidecar = json_in(folder_ / "b.json");
+  EXPECT_EQ(sidecar.at("picture"),
+            (nlohmann::json{{"width", with_bar.cols}, {"height", with_bar.rows}}));
+  EXPECT_EQ(sidecar.at("parameters").at("scale-bar"), "true");
+  const auto to_sample = sidecar.at("pixel_to_sample");
+  const cv::Point first(static_cast<int>(-to_sample[0][2].get<double>() / 10.0),
+                        static_cast<int>(-to_sample[1][2].get<double>() / 10.0));
+  const cv::Rect part(first, plain.size());
+  EXPECT_TRUE(reconstruct::same_pixels(with_bar(part), plain));
+  EXPECT_EQ(cv::norm(with_bar.rowRange(part.br().y, with_bar.rows), cv::NORM_INF), 255.0);
+}
+
+TEST_F(SectionAndSeries, ASectionsPlaneCanBeTakenAgain) {
+  run({"section", sample_, "--tilt", "33", "--azimuth", "77", "--json", "-o", folder_ / "a.png"});
+  for (const char* record : {"a.png", "a.json"}) {
+    run({"section", sample_, "--plane-of", folder_ / record, "-o", folder_ / "b.png"});
+    EXPECT_TRUE(reconstruct::same_pixels(read_image_file(folder_ / "b.png"),
+                                         read_image_file(folder_ / "a.png")));
+  }
+  EXPECT_THROW(section(folder_ / "c.png", {"--plane-of", folder_ / "a.json"}), InvalidRequest);
+  EXPECT_THAT(
+      message_of<SampleError>([&] {
+        run({"section", sample_, "--plane-of", sample_ + "/sample.toml", "-o", folder_ / "c.png"});
+      }),
+      HasSubstr("sample.toml: does not say along which plane"));
+}
+
+TEST_F(SectionAndSeries, ARateWithoutAFilmIsAMistake) {
+  EXPECT_THROW(rotation(folder_ / "frames", {"--rate", "5"}), CLI::RequiresError);
+}
+
 TEST_F(SectionAndSeries, AJpegIsSmallerAtALowerQuality) {
   section(folder_ / "a.jpg", {"--quality", "30"});
   section(folder_ / "b.jpg", {"--quality", "95"});

@@ -101,6 +101,20 @@ TEST(Plane, IsTheSameFromItsEquation) {
   EXPECT_DOUBLE_EQ(plane.offset(), 2.0);
 }
 
+TEST(Plane, IsToTheBitThatOfItsNormalAndOffset) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-2.0, 2.0);
+  for (int i = 0; i < 10'000; ++i) {
+    const Vector3 normal{number(random), number(random), i % 7 == 0 ? 0.0 : number(random)};
+    const Plane plane = Plane::from_normal(normal, {1e4 * number(random), 7.0, 3.0});
+    const auto& [x, y, z] = plane.normal();
+    const Plane again = Plane::from_equation(x, y, z, plane.offset());
+    ASSERT_EQ(again.normal(), plane.normal());
+    ASSERT_EQ(again.offset(), plane.offset());
+  }
+  EXPECT_EQ(Plane::from_equation(1.0, 1e-12, 0.0, 5.0).normal(), (Vector3{1.0, 0.0, 0.0}));
+}
+
 TEST(Plane, IsAlongAnAxisWhenOnlyRoundingSaysOtherwise) {
   const Plane plane = Plane::from_normal({1.0, 1e-17, -1e-13}, {5, 0, 0});
   EXPECT_EQ(plane.normal(), (Vector3{1.0, 0.0, 0.0}));

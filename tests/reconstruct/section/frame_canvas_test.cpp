@@ -48,6 +48,17 @@ TEST(FrameCanvas, DrawsTheLabelBelowThePicture) {
   }
 }
 
+TEST(FrameCanvas, WritesWhiteOnDarkAndBlackOnLight) {
+  for (const bool light : {false, true}) {
+    const Colour background = light ? Colour{255, 255, 255} : Colour{0, 0, 0};
+    const cv::Mat frame = FrameCanvas({400, 100}, "", background, ScaleBar{200.0, 57, "200 um"})
+                              .draw_empty(CV_8UC3, "");
+    const cv::Scalar paper(background[0], background[1], background[2]);
+    const cv::Mat apart = cv::abs(frame - cv::Mat(frame.size(), CV_8UC3, paper));
+    EXPECT_EQ(cv::norm(apart, cv::NORM_INF), 255.0);
+  }
+}
+
 TEST(FrameCanvas, DrawsTheScaleBarOnTheRightInItsLength) {
   const ScaleBar bar{200.0, 57, "200 um"};
   for (const int type : {CV_8UC3, CV_16UC3}) {
