@@ -10,6 +10,7 @@
 
 #include "tools/command.hpp"
 #include "tools/daemon_connection.hpp"
+#include "tools/patient_look.hpp"
 
 namespace biotomy::tools {
 namespace {
@@ -27,8 +28,9 @@ void calibrate(const Options& options, const std::string& kind) {
   DaemonConnection daemon(options.daemon);
   daemon.command("calibrate-" + kind, options.reason);
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  PatientLook look(daemon, {});
   while (true) {
-    const nlohmann::json calibration = daemon.status().value("calibration", nlohmann::json());
+    const nlohmann::json calibration = look.status().value("calibration", nlohmann::json());
     if (!calibration.is_object() || calibration.value("kind", "") != kind) {
       throw std::runtime_error(
           "the daemon knows nothing of the calibration any more: was it "

@@ -87,8 +87,7 @@ std::string DaemonConnection::command(const std::string& name, const std::string
 
 std::string DaemonConnection::answer(const httplib::Result& result) const {
   if (!result) {
-    throw std::runtime_error("no biotomyd answers at " + url_ +
-                             ": is it running, and is --url right?");
+    throw DaemonAway("no biotomyd answers at " + url_ + ": is it running, and is --url right?");
   }
   if (result->status == 200) return result->body;
   const json document = json::parse(result->body, nullptr, false);
@@ -103,7 +102,9 @@ std::string DaemonConnection::answer(const httplib::Result& result) const {
     message = "the daemon at " + url_ +
               " does not know the token: give one that stands in its service.token_file";
   } else if (result->status == 429) {
-    message = "the daemon at " + url_ + " turns this computer away for a while: " + message;
+    throw DaemonAway("the daemon at " + url_ + " turns this computer away for a while: " + message);
+  } else if (result->status == 503) {
+    throw DaemonAway(message);
   }
   throw std::runtime_error(message);
 }

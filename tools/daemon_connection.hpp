@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,12 @@ struct DaemonOptions {
 /// The options --url and --token-file.
 void add_daemon_options(CLI::App& command, DaemonOptions& options);
 
+/// The daemon does not answer, or has no time to: it may be there again in a moment.
+class DaemonAway : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The daemon of a rig, over HTTP. What goes wrong is one line that says what to do.
 class DaemonConnection {
  public:
@@ -25,6 +32,7 @@ class DaemonConnection {
   /// URL that cannot be, std::runtime_error when no token can be read.
   explicit DaemonConnection(const DaemonOptions& options);
 
+  /// Throws DaemonAway where asking again may help, std::runtime_error where it does not.
   std::string status_text();
   nlohmann::json status();
 

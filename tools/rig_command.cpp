@@ -14,6 +14,7 @@
 
 #include "tools/command.hpp"
 #include "tools/daemon_connection.hpp"
+#include "tools/patient_look.hpp"
 
 namespace biotomy::tools {
 namespace {
@@ -25,6 +26,7 @@ struct RigOptions {
   std::string reason;
   bool as_json = false;
   int interval_ms = 500;
+  int patience_s = 120;
 };
 
 std::string duration_text(double seconds) {
@@ -127,9 +129,10 @@ bool is_in_a_step(const std::string& state) {
 /// job is at its end.
 void watch(DaemonConnection& daemon, const RigOptions& options) {
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  PatientLook look(daemon, {.most = std::chrono::seconds(options.patience_s)});
   std::string shown;
   while (true) {
-    const json status = daemon.status();
+    const json status = look.status();
     const std::string state = status.at("state");
     const bool in_a_step = is_in_a_step(state) && state != "held";
     std::string line = std::to_string(status.at("committed").get<std::int64_t>()) + "/" +
@@ -200,6 +203,12 @@ void add_rig_command(CLI::App& app) {
   add_daemon_options(*watch_command, options->daemon);
   watch_command->add_option("--interval", options->interval_ms, "Milliseconds between two looks")
       ->check(CLI::Range(50, 60000))
+      ->capture_default_str();
+  watch_command
+      ->add_option("--patience", options->patience_s,
+                   "Seconds for which a daemon that has answered may be away, as when it is "
+                   "started anew")
+      ->check(CLI::Range(0, 86400))
       ->capture_default_str();
   watch_command->callback([options] {
     DaemonConnection daemon(options->daemon);

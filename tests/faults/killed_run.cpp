@@ -95,8 +95,8 @@ void KilledRun::finish() {
   const auto deadline = steady_clock::now() + kLongestJob;
   for (;;) {
     go_on();
-    const Outcome watched =
-        rig_.rig("watch", std::chrono::ceil<seconds>(deadline - steady_clock::now()));
+    const Outcome watched = rig_.rig(
+        "watch", std::chrono::ceil<seconds>(deadline - steady_clock::now()), {"--patience", "0"});
     if (watched.exit_code == 0) return;
     if (steady_clock::now() > deadline) throw std::runtime_error(watched.output + watched.errors);
   }

@@ -164,9 +164,12 @@ std::optional<Outcome> SimulatedRig::daemon_end() {
   return daemon_->end();
 }
 
-Outcome SimulatedRig::rig(const std::string& command, seconds limit) {
-  return run({BIOTOMY_TOOL, "rig", command, "--url", url_, "--token-file", folder() / "token"},
-             folder(), limit);
+Outcome SimulatedRig::rig(const std::string& command, seconds limit,
+                          const std::vector<std::string>& options) {
+  std::vector<std::string> words{BIOTOMY_TOOL, "rig",          command,           "--url",
+                                 url_,         "--token-file", folder() / "token"};
+  words.insert(words.end(), options.begin(), options.end());
+  return run(words, folder(), limit);
 }
 
 nlohmann::json SimulatedRig::status() {

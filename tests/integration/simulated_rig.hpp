@@ -81,7 +81,8 @@ class SimulatedRig {
   const std::string& url() const { return url_; }
 
   /// `biotomy rig COMMAND`.
-  Outcome rig(const std::string& command, std::chrono::seconds limit = std::chrono::seconds(60));
+  Outcome rig(const std::string& command, std::chrono::seconds limit = std::chrono::seconds(60),
+              const std::vector<std::string>& options = {});
 
   /// The daemon's /api/v1/status.
   nlohmann::json status();
