@@ -1,7 +1,6 @@
 #include "acquisition/service/attempt_watch.hpp"
 
-#include <array>
-#include <fstream>
+#include <cstdint>
 #include <utility>
 
 #include "acquisition/log.hpp"
@@ -12,11 +11,11 @@ namespace biotomy::acquisition {
 namespace {
 
 constexpr std::int64_t kMostAtOnce = 1000;
-constexpr std::size_t kIndexHeader = 48;  // bytes; see "WAL-Index Format" of SQLite's documentation
 
 }  // namespace
 
-AttemptWatch::AttemptWatch(std::filesystem::path journal) : journal_(std::move(journal)) {
+AttemptWatch::AttemptWatch(std::filesystem::path journal)
+    : journal_(std::move(journal)), log_(journal_.string() + "-wal") {
   try {
     if (!std::filesystem::exists(journal_)) return;
     const JournalReader reader(journal_);
@@ -30,25 +29,25 @@ AttemptWatch::AttemptWatch(std::filesystem::path journal) : journal_(std::move(j
 
 std::string AttemptWatch::files_state() const {
   std::string state;
-  for (const char* of : {"", "-wal"}) {
-    const std::filesystem::path file = journal_.string() + of;
+  for (const std::filesystem::path& file : {journal_, log_}) {
     std::error_code none;
     state += std::to_string(std::filesystem::file_size(file, none)) + " ";
     const auto written = std::filesystem::last_write_time(file, none);
     state += std::to_string(written.time_since_epoch().count()) + " ";
   }
-  // What is in the log may not be committed yet, and changes none of these when it is: the
-  // beginning of the log's index does.
-  std::array<char, kIndexHeader> header{};
-  std::ifstream index(journal_.string() + "-shm", std::ios::binary);
-  index.read(header.data(), header.size());
-  return state.append(header.data(), static_cast<std::size_t>(index.gcount()));
+  return state;
+}
+
+bool AttemptWatch::is_at_rest() const {
+  std::error_code none;
+  const std::uintmax_t bytes = std::filesystem::file_size(log_, none);
+  return none || bytes == 0;
 }
 
 std::vector<AttemptNote> AttemptWatch::look() {
   if (!std::filesystem::exists(journal_)) return {};
   std::string state = files_state();
-  if (state == seen_) return {};
+  if (state == seen_ && is_at_rest()) return {};
   const auto known = last();
   std::vector<AttemptNote> found =
       JournalReader(journal_).attempts_after(known ? known->id : 0, kMostAtOnce);

@@ -10,8 +10,12 @@
 
 namespace biotomy::acquisition {
 
-/// Looks again and again at the journal for attempts that are new in it. As long as nothing was
-/// written to the journal's files, it asks SQLite nothing.
+/// Looks again and again at the journal for attempts that are new in it. Of a journal that nobody
+/// has open, and to whose files nothing was written, it asks SQLite nothing.
+/// It opens none of the journal's files itself: with the first descriptor of a file that a process
+/// closes it loses all its locks on that file (fcntl(2), "Record locking and file descriptors"),
+/// SQLite's too. Another program that opens the journal then takes itself for the only one, and
+/// cuts the index that the writer has mapped, who dies of SIGBUS.
 class AttemptWatch {
  public:
   /// Attempts that are in the journal by now are not new. The journal need not be there yet.
@@ -25,10 +29,15 @@ class AttemptWatch {
   std::optional<AttemptNote> last() const;
 
  private:
-  /// Changes with everything that is written.
+  /// Changes with everything that is written; not always with the commit of what was written
+  /// before.
   std::string files_state() const;
 
+  /// Whether the write-ahead log is empty, or gone: then nothing can be committed without a write.
+  bool is_at_rest() const;
+
   std::filesystem::path journal_;
+  std::filesystem::path log_;
   std::string seen_;  ///< the files' state at the last look
   mutable std::mutex mutex_;
   std::optional<AttemptNote> last_;

@@ -1,6 +1,9 @@
 #include "acquisition/service/attempt_watch.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "acquisition/records/layer_journal.hpp"
 #include "tests/temporary_folder.hpp"
@@ -77,6 +80,36 @@ TEST_F(AttemptWatchTest, SeesWhatWasWrittenBeforeALookAndCommittedAfterIt) {
   ASSERT_EQ(std::filesystem::file_size(log), size_of_two);
   std::filesystem::last_write_time(log, written);
   EXPECT_EQ(watch.look().size(), 1U);
+}
+
+/// Whether this process locks a byte of a file. A process is never told of its own locks: a child
+/// asks.
+bool is_locked(const std::filesystem::path& file, off_t byte) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    lock.l_start = byte;
+    lock.l_len = 1;
+    const bool asked = descriptor >= 0 && ::fcntl(descriptor, F_GETLK, &lock) == 0;
+    ::_exit(asked && lock.l_type != F_UNLCK ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WEXITSTATUS(status) == 1;
+}
+
+TEST_F(AttemptWatchTest, LeavesTheWritersLocksOnTheJournalAlone) {
+  constexpr off_t kInUse = 128;  // of the index; "WAL-Index Format" of SQLite's documentation
+  const std::filesystem::path index = path.string() + "-shm";
+  LayerJournal journal(path);
+  record(journal, 1);
+  AttemptWatch watch(path);
+  record(journal, 2);
+  ASSERT_TRUE(is_locked(index, kInUse));
+  EXPECT_EQ(watch.look().size(), 1U);
+  EXPECT_TRUE(is_locked(index, kInUse));
 }
 
 TEST_F(AttemptWatchTest, KnowsWhatSomebodyMissed) {
