@@ -80,7 +80,8 @@ void HttpConnection::received(const error_code& error, std::size_t bytes) {
     read();
     return;
   }
-  if (state_ == State::receiving && input_.empty()) limit_to(limits_.request_time);
+  const bool begins_a_request = input_.empty() && reader_.is_between_requests();
+  if (state_ == State::receiving && begins_a_request) limit_to(limits_.request_time);
   input_.append(piece_, 0, bytes);
   if (state_ == State::receiving) advance();
   if (state_ != State::closed) read();

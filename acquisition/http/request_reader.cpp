@@ -113,6 +113,10 @@ RequestReader::Outcome RequestReader::take(std::string& bytes) {
   return Outcome::complete;
 }
 
+bool RequestReader::is_between_requests() const {
+  return !state_->parser->got_some();
+}
+
 ReceivedRequest RequestReader::request() {
   State& state = *state_;
   const auto& message = state.parser->get();

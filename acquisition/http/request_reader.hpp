@@ -37,6 +37,9 @@ class RequestReader {
   /// given again, with more.
   Outcome take(std::string& bytes);
 
+  /// Whether nothing of the next request has been taken yet.
+  bool is_between_requests() const;
+
   /// After `complete`: the request; the reader begins the next one.
   ReceivedRequest request();
 

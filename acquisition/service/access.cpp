@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "reconstruct/excerpt.hpp"
+
 namespace biotomy::acquisition {
 namespace {
 
@@ -72,7 +74,9 @@ Ruling Access::recorded(Ruling ruling, const std::string& client, const std::str
   const std::string reason = ruling.status == 401   ? "no token"
                              : ruling.status == 403 ? "a wrong token"
                                                     : "too many attempts";
-  if (const auto line = refusals_.line(client, what + ", " + reason, now)) refused_(*line);
+  // Anybody may ask for anything, and every line of it is kept in the journal.
+  const std::string asked = reconstruct::excerpt(what);
+  if (const auto line = refusals_.line(client, asked + ", " + reason, now)) refused_(*line);
   return ruling;
 }
 

@@ -364,6 +364,7 @@ ApiResponse ExportQueue::remove(const std::string& id) {
     state_->folder.remove(removed);
   } else {
     state_->tell(json);
+    state_->keep_the_last();
   }
   return {.status = 200, .body = json};
 }

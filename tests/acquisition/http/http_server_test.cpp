@@ -367,6 +367,21 @@ TEST_F(HttpServerTest, DropsWhoIsSlowWithARequest) {
   EXPECT_EQ(client.read_all(), "");
 }
 
+TEST_F(HttpServerTest, DropsWhoSendsABodyByteByByte) {
+  settings.limits.request_time = milliseconds(200);
+  RawClient client(start());
+  client.send("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n");
+  const std::jthread dripping([&](const std::stop_token& stop) {
+    for (int i = 0; i < 999 && !stop.stop_requested(); ++i) {
+      std::this_thread::sleep_for(milliseconds(20));
+      client.send("x");
+    }
+  });
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(client.read_all(), "");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
 TEST_F(HttpServerTest, EndsAConnectionThatIsIdle) {
   settings.limits.idle_time = milliseconds(50);
   RawClient client(start());

@@ -13,6 +13,7 @@ using namespace acquisition;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr const char* kAnna = "Bearer 0123456789abcdef";
 constexpr const char* kWrong = "Bearer 0123456789abcdeF";
@@ -86,6 +87,14 @@ TEST_F(AccessTest, DoesNotCountReadingAsCommands) {
   settings.commands_per_minute = 1;
   Access door = access();
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(door.reading("a", kAnna, "/metrics").granted);
+}
+
+TEST_F(AccessTest, WritesDownTheBeginningAloneOfWhatWasAsked) {
+  Access door = access();
+  door.command("a", "", "DELETE /api/v1/exports/" + std::string(8000, 'x'));
+  ASSERT_EQ(written.size(), 1U);
+  EXPECT_THAT(written[0], StartsWith("refused a: DELETE /api/v1/exports/xxx"));
+  EXPECT_LT(written[0].size(), 200U);
 }
 
 TEST_F(AccessTest, WritesDownRefusalsWithoutTheToken) {

@@ -231,6 +231,15 @@ TEST_F(ExportsOfASample, KeepTheLastTwenty) {
   EXPECT_TRUE(fs::exists(exports_ / ids[2]));
 }
 
+TEST_F(ExportsOfASample, KeepNoMoreOfThoseThatWereCancelledBeforeTheyBegan) {
+  const std::string first = order(kEndless);
+  ASSERT_FALSE(
+      wait(first, [](const json& told) { return told.at("state") == "running"; }).is_null());
+  for (int i = 0; i < 30; ++i) ask("DELETE", "/" + order(kSection));
+  EXPECT_EQ(json_of(ask("GET", "")).at("exports").size(), 21U);
+  ask("DELETE", "/" + first);
+}
+
 TEST_F(ExportsOfASample, SayWhatCannotBe) {
   EXPECT_EQ(ask("POST", "", "{").status, 400);
   EXPECT_EQ(ask("POST", "", R"({"kind":"section"})").status, 400);
