@@ -112,6 +112,7 @@ void Job::tick(TimePoint now) {
   look_at_lines(now);
   exchange(now);
   supervise(now);
+  compare_channels(now);
   hear_camera();
   hear_operator(now);
   go_on_by_itself(now);
@@ -184,10 +185,28 @@ void Job::supervise(TimePoint now) {
           now);
     return;
   }
-  if (keeper_) {
-    if (const auto failure = keeper_->failure())
-      fault({AlarmKind::storage, "a record was not written: " + *failure}, now);
+  if (const auto failure = unwritten_record()) {
+    fault({AlarmKind::storage, "a record was not written: " + *failure}, now);
   }
+}
+
+/// Also at rest: a door is opened there too.
+void Job::compare_channels(TimePoint now) {
+  if (!fresh_) return;
+  channels_.observe(fresh_->interlocks, inputs_, now);
+  const auto disagreement = channels_.take_disagreement();
+  if (!disagreement) return;
+  if (state_ == JobState::faulted) {
+    add_to_alarm(*disagreement);
+  } else {
+    log_warning(kComponent, *disagreement);
+    note("recovery", *disagreement);
+  }
+}
+
+std::optional<std::string> Job::unwritten_record() const {
+  std::optional<std::string> failure = keeper_ ? keeper_->failure() : std::nullopt;
+  return !failure && events_ ? events_->failure() : failure;
 }
 
 void Job::advance(TimePoint now) {
@@ -344,17 +363,15 @@ void Job::note(const char* kind, const std::string& text) {
 void Job::note(const char* kind, const std::string& text,
                std::chrono::system_clock::time_point at) {
   JobEventRow row{kind, to_string(state_), cycle_ ? cycle_->layer() : 0, text, utc_text(at)};
-  if (keeper_) {
-    keeper_->post([row = std::move(row)](SampleRecords& records) { records.record_event(row); });
+  if (events_) {
+    events_->post(std::move(row));
   } else {
     early_notes_.add(std::move(row));
   }
 }
 
 void Job::write_early_notes() {
-  keeper_->post([rows = early_notes_.take()](SampleRecords& records) {
-    for (const JobEventRow& row : rows) records.record_event(row);
-  });
+  for (JobEventRow& row : early_notes_.take()) events_->post(std::move(row));
 }
 
 void Job::hear_camera() {

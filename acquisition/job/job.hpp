@@ -20,8 +20,10 @@
 #include "acquisition/job/recovery.hpp"
 #include "acquisition/job/time_left.hpp"
 #include "acquisition/job/unattended_restart.hpp"
+#include "acquisition/records/event_writer.hpp"
 #include "acquisition/records/record_keeper.hpp"
 #include "acquisition/records/surroundings.hpp"
+#include "acquisition/rig/channel_comparison.hpp"
 #include "acquisition/rig/conditioning.hpp"
 #include "acquisition/rig/fault_stop.hpp"
 #include "acquisition/rig/homing_step.hpp"
@@ -42,6 +44,7 @@ struct JobParts {
   bridge::Camera& camera;
   Worker& worker;         ///< for camera and disk
   Worker& volume_worker;  ///< for the volume, which is never in the rig's way
+  Worker& event_worker;   ///< for the journal's events, which wait for neither
   OperatorDesk& desk;
   StatusBoard& board;
   /// The camera without any correction of its frames, for calibrations; null: `camera` itself.
@@ -78,6 +81,7 @@ class Job {
   void look_at_lines(TimePoint now);
   void exchange(TimePoint now);
   void supervise(TimePoint now);
+  void compare_channels(TimePoint now);
   void hear_camera();
   void hear_operator(TimePoint now);
   void hear(OperatorDesk::Request& request, TimePoint now);
@@ -87,6 +91,7 @@ class Job {
   std::optional<std::string> why_not(OperatorCommand command) const;
   std::optional<std::string> why_not_begin(JobEvent event) const;
   std::optional<std::string> why_not_acknowledge() const;
+  std::optional<std::string> turning_wheel() const;
   std::vector<OperatorCommand> accepted_commands() const;
   OperatorReply begin(JobEvent event, TimePoint now);
   OperatorReply acknowledge(TimePoint now);
@@ -129,6 +134,7 @@ class Job {
   void note(const char* kind, const std::string& text);
   void note(const char* kind, const std::string& text, std::chrono::system_clock::time_point at);
   void write_early_notes();
+  std::optional<std::string> unwritten_record() const;
   std::string waiting_for() const;
 
   JobSettings settings_;
@@ -136,6 +142,7 @@ class Job {
   Surroundings surroundings_;
   StageCommands commands_;
   Supervision supervision_;
+  ChannelComparison channels_;
   HomingStep homing_;
   Parking parking_;
   FaultStop fault_stop_;
@@ -174,6 +181,7 @@ class Job {
   Conditioning conditioning_;
   Hold hold_;
   std::optional<RecordKeeper> keeper_;
+  std::optional<EventWriter> events_;
   EarlyNotes early_notes_;
   std::optional<VolumeFeed> feed_;
   std::optional<Continuation> continuation_;

@@ -146,8 +146,8 @@ std::optional<std::string> Job::why_not_begin(JobEvent event) const {
   if (next_state(state_, event)) {
     // What only an acknowledgement cures becomes an alarm, which can be acknowledged.
     const auto cause = supervision_.standing_cause();
-    return cause ? std::optional("not while something is wrong with the rig: " + cause->sentence)
-                 : std::nullopt;
+    return cause ? "not while something is wrong with the rig: " + cause->sentence
+                 : turning_wheel();
   }
   if (state_ != JobState::faulted) {
     return std::string("the job is ") + to_string(state_) + ": " + to_string(event) +
@@ -192,12 +192,13 @@ std::optional<std::string> Job::why_not_acknowledge() const {
   }
   if (!at_rest()) return "the rig is still being parked: wait a moment";
   if (!fresh_) return "the controller did not answer just now: try again";
-  if (wheel_turns(*fresh_, settings_.limits)) {
-    return "the wheel still turns, at " +
-           std::to_string(std::lround(std::abs(fresh_->spindle_rpm))) +
-           " rpm: wait until it stands, or switch its drive off";
-  }
-  return std::nullopt;
+  return turning_wheel();
+}
+
+std::optional<std::string> Job::turning_wheel() const {
+  if (!fresh_ || !wheel_turns(*fresh_, settings_.limits)) return std::nullopt;
+  return "the wheel still turns, at " + std::to_string(std::lround(std::abs(fresh_->spindle_rpm))) +
+         " rpm: wait until it stands, or switch its drive off";
 }
 
 /// While the latch is reset for a job that was to start.

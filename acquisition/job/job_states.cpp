@@ -175,6 +175,9 @@ bool is_at_rest(JobState state) {
 
 bool wheel_must_stand(JobState state) {
   switch (state) {
+    case preflight:
+    case recovering:
+    case homing:
     case conditioning:
     case clearing:
     case settling:

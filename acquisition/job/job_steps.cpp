@@ -20,9 +20,10 @@ void Job::begin_preflight() {
   cycle_.reset();
   identity_.reset();
   // The records of an earlier run are closed, after all they still write, before they are opened
-  // anew: one journal has one writer. By the worker, as that waits for the disk.
+  // anew. By the workers, as that waits for the disk.
   feed_.reset();
   keeper_.reset();
+  events_.reset();
   parts_.worker.post(
       [records = std::exchange(findings_.records, nullptr)]() mutable { records.reset(); });
   findings_ = PreflightFindings();
@@ -48,6 +49,7 @@ std::optional<JobEvent> Job::poll_preflight() {
   commands_.raise_to(std::max(
       {findings_.journal.last_sequence, fresh_->sequence_started, fresh_->sequence_finished}));
   keeper_.emplace(parts_.worker, findings_.records);
+  events_.emplace(parts_.event_worker, findings_.records->sample().journal_path());
   write_early_notes();
   feed_.emplace(parts_.volume_worker, surroundings_.open_volume(findings_.records->sample(),
                                                                 settings_.store.volume_layout));

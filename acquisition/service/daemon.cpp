@@ -225,6 +225,7 @@ int run_daemon(const Configuration& configuration) {
   ThreadWorker worker_thread;
   WatchedWorker worker(worker_thread, steady_clock::now);
   ThreadWorker volume_worker;
+  ThreadWorker event_worker;
   OperatorDesk desk;
   StatusBoard board;
   Observers observers(configuration);
@@ -233,11 +234,11 @@ int run_daemon(const Configuration& configuration) {
                   log_warning("access", line);
                   desk.remark(line);
                 });
-  Job job(
-      configuration.job,
-      {stage, *lines, camera, worker, volume_worker, desk, board, &watched_camera, &watched_camera},
-      real_surroundings(),
-      take_over_earlier_run(plan.sample, utc_text(std::chrono::system_clock::now())));
+  Job job(configuration.job,
+          {stage, *lines, camera, worker, volume_worker, event_worker, desk, board, &watched_camera,
+           &watched_camera},
+          real_surroundings(),
+          take_over_earlier_run(plan.sample, utc_text(std::chrono::system_clock::now())));
   AttemptWatch attempts(journal);
   const auto status = [&] {
     return status_json(*board.look(), {configuration.job.limits, attempts.last()});

@@ -59,7 +59,7 @@ void JobBench::start_daemon() {
   job.reset();
   job = std::make_unique<Job>(settings,
                               JobParts{stage, lines, watched_camera, *job_worker, volume_worker,
-                                       desk, board, plain_camera, &watched_camera},
+                                       event_worker, desk, board, plain_camera, &watched_camera},
                               surroundings,
                               take_over_earlier_run(settings.plan.sample, "2026-11-01T00:00:00Z"));
   tick();

@@ -27,6 +27,7 @@ struct JobBench {
   InlineWorker worker;
   acquisition::Worker* job_worker = &worker;  ///< the one that a job is given
   InlineWorker volume_worker;
+  InlineWorker event_worker;
   acquisition::OperatorDesk desk;
   acquisition::StatusBoard board;
   acquisition::JobSettings settings;

@@ -181,6 +181,51 @@ TEST(JobSafety, StopsWhenTheWheelStartsByItself) {
   EXPECT_THAT(bench.alarm(), HasSubstr("the wheel turns at 50.0 rpm where it must stand"));
 }
 
+TEST(JobSafety, StopsWhenTheWheelStartsBeforeAnythingIsAskedOfIt) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::recovering));
+  bench.stage.status.spindle_rpm = 50.0;
+  bench.stage.wheel_runs_on = true;
+  bench.tick(50);
+  EXPECT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the wheel turns at 50.0 rpm where it must stand"));
+}
+
+TEST(JobSafety, IsNotBegunWhileTheWheelTurns) {
+  JobBench bench;
+  ASSERT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  ASSERT_TRUE(bench.reach(JobState::idle));
+  bench.stage.status.spindle_rpm = 50.0;
+  bench.stage.wheel_runs_on = true;
+  EXPECT_THAT(bench.say(OperatorCommand::start).sentence, HasSubstr("the wheel still turns"));
+  bench.stage.status.spindle_rpm = 0.0;
+  EXPECT_TRUE(bench.say(OperatorCommand::start).accepted);
+}
+
+TEST(JobSafety, TellsWhenOnlyOneOfTwoContactsSeesASwitch) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::grinding));
+  bench.lines.inputs.estop_pressed = true;
+  bench.tick(50);
+  EXPECT_THAT(bench.alarm(), Not(HasSubstr("only")));
+  bench.tick(100);
+  EXPECT_THAT(bench.alarm(), HasSubstr("; only the line sees the e-stop pressed"));
+  EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("the controller's contact is dead"));
+}
+
+TEST(JobSafety, TellsAtRestTooWhenOnlyOneOfTwoContactsSeesADoor) {
+  JobBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  bench.stage.status.interlocks.door_open = true;
+  bench.tick(150);
+  EXPECT_THAT(bench.events_of_kind("recovery"),
+              HasSubstr("only the controller sees the door open"));
+  EXPECT_EQ(bench.state(), JobState::done);
+}
+
 TEST(JobSafety, TellsThatTheRigCouldNotBeParked) {
   JobBench bench;
   bench.settings.limits.park_limit = std::chrono::milliseconds(2000);

@@ -98,9 +98,9 @@ TEST(JobStates, LeaveFaultedOnlyByAnAcknowledgement) {
 // nothing has told it to turn.
 TEST(JobStates, LetTheWheelTurnNeitherOverAFaceThatIsPhotographedNorWhileTheyOnlyWait) {
   const std::set<JobState> standing = {
-      JobState::conditioning, JobState::clearing, JobState::settling,
-      JobState::lighting,     JobState::focusing, JobState::capturing,
-      JobState::assessing,    JobState::storing,  JobState::held};
+      JobState::preflight, JobState::recovering, JobState::homing,   JobState::conditioning,
+      JobState::clearing,  JobState::settling,   JobState::lighting, JobState::focusing,
+      JobState::capturing, JobState::assessing,  JobState::storing,  JobState::held};
   for (const JobState state : all_job_states()) {
     EXPECT_EQ(wheel_must_stand(state), standing.contains(state)) << to_string(state);
   }

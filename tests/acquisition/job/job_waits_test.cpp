@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/job.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 #include "tests/acquisition/held_job_bench.hpp"
 
 namespace biotomy::tests {
@@ -12,6 +14,7 @@ namespace {
 
 using namespace acquisition;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 struct JobThatWaits : testing::Test {
@@ -55,6 +58,19 @@ TEST_F(JobThatWaits, LeavesOneRecordOfAFrameThatAnAlarmOvertakesWhileItIsStored)
   const std::filesystem::path rejected = bench.settings.plan.sample / "rejected";
   EXPECT_TRUE(!std::filesystem::exists(rejected) || std::filesystem::is_empty(rejected))
       << "no picture of it is kept as of one that was given up";
+}
+
+// The power may go before a camera that hangs has answered.
+TEST_F(JobThatWaits, HasItsAlarmInTheJournalBeforeTheWorkerIsDone) {
+  ASSERT_TRUE(bench.reach(JobState::storing)) << bench.alarm();
+  bench.lines.inputs.estop_pressed = true;
+  bench.tick();
+  ASSERT_EQ(bench.state(), JobState::faulted);
+  EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("the e-stop is pressed"));
+  const EarlierRun found =
+      read_earlier_run(bench.settings.plan.sample / reconstruct::SampleFolder::kJournalName);
+  EXPECT_FALSE(found.was_running);
+  EXPECT_THAT(found.alarm, HasSubstr("the e-stop is pressed"));
 }
 
 }  // namespace
