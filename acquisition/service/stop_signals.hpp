@@ -5,8 +5,8 @@
 
 namespace biotomy::acquisition {
 
-/// SIGTERM and SIGINT, taken by the main thread alone when it asks; SIGPIPE is ignored. Made before
-/// any other thread.
+/// SIGTERM, SIGINT, SIGQUIT and SIGHUP (unless that was ignored already, as nohup does), taken by
+/// the main thread alone when it asks; SIGPIPE is ignored. Made before any other thread.
 class StopSignals {
  public:
   StopSignals();

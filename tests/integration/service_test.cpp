@@ -1,4 +1,6 @@
 // The daemon as systemd and Prometheus see it.
+#include <csignal>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -54,6 +56,28 @@ TEST(Service, TellsSystemdThatItIsReadyWhatItDoesAndThatItStops) {
   EXPECT_EQ(rig.end_daemon().exit_code, 0);
   EXPECT_TRUE(systemd.await("STOPPING=1", seconds(60)));
   EXPECT_TRUE(systemd.await("EXTEND_TIMEOUT_USEC=", seconds(60)));
+}
+
+TEST(Service, BringsTheRigToRestWhenItsTerminalGoesAwayOrIsToldToQuit) {
+  for (const int signal : {SIGHUP, SIGQUIT}) {
+    SimulatedRig rig(small_plan(1000));
+    rig.start_daemon();
+    ASSERT_EQ(rig.rig("start").exit_code, 0);
+    rig.send_daemon(signal);
+    const Outcome end = rig.await_daemon_end(seconds(60));
+    EXPECT_EQ(end.exit_code, 0) << strsignal(signal) << end.errors;
+    EXPECT_THAT(end.errors, HasSubstr("is ending: brings the rig to rest"));
+  }
+}
+
+TEST(Service, GoesOnWithoutItsTerminalWhenItWasStartedByNohup) {
+  SimulatedRig rig(small_plan(3));
+  rig.launch_daemon({"/usr/bin/nohup"});
+  rig.await_daemon();
+  ASSERT_EQ(rig.rig("start").exit_code, 0);
+  rig.send_daemon(SIGHUP);
+  EXPECT_EQ(rig.rig("watch", seconds(120)).exit_code, 0);
+  EXPECT_EQ(rig.end_daemon().exit_code, 0);
 }
 
 TEST(Service, GivesNoSignOfLifeWhileItsControlThreadHangs) {
