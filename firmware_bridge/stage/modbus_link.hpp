@@ -57,7 +57,8 @@ class ModbusLink final : public RegisterBus {
  public:
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
 
-  /// Does not connect yet. Throws ConfigurationError for an endpoint or a setting that can't be.
+  /// Does not connect yet. Throws ConfigurationError for an endpoint or a setting that can't be,
+  /// DeviceError when the host's name cannot be looked up at present.
   explicit ModbusLink(const ModbusLinkSettings& settings,
                       Clock clock = std::chrono::steady_clock::now);
   ~ModbusLink() override;

@@ -6,11 +6,11 @@
 #include <memory>
 #include <system_error>
 
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 
+#include "firmware_bridge/device_error.hpp"
 #include "firmware_bridge/wire/configuration_error.hpp"
 
 namespace biotomy::bridge {
@@ -38,19 +38,28 @@ int await_connection(int socket, Clock::time_point until) {
   return getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &length) == 0 ? error : errno;
 }
 
+/// A name that is wrong stays wrong; after a power cut a name server may be later than we are.
+[[noreturn]] void refuse(const std::string& host, int error) {
+  const std::string what = "host " + host + ": " + gai_strerror(error);
+  if (error == EAI_NONAME || error == EAI_NODATA) {
+    throw ConfigurationError(what + "; write its address, or mend the name");
+  }
+  throw DeviceError(DeviceError::Kind::disconnected,
+                    what +
+                        "; is the network up, and does the name server answer? With an address "
+                        "in place of the name none is needed");
+}
+
 }  // namespace
 
-TcpAddresses::TcpAddresses(const std::string& host, std::uint16_t port) {
+TcpAddresses::TcpAddresses(const std::string& host, std::uint16_t port, Lookup look_up) {
   addrinfo wanted{};
   wanted.ai_family = AF_UNSPEC;
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
+  const int error = look_up(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
   const std::unique_ptr<addrinfo, AddressListDeleter> list(found);
-  if (error != 0) {
-    throw ConfigurationError("host " + host + ": " + gai_strerror(error) +
-                             "; write its address, or mend the name");
-  }
+  if (error != 0) refuse(host, error);
   for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
     Address& address = addresses_.emplace_back();
     address.length = one->ai_addrlen;

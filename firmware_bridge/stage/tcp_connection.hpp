@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <netdb.h>
 #include <sys/socket.h>
 
 #include "firmware_bridge/wire/unique_fd.hpp"
@@ -15,8 +16,12 @@ namespace biotomy::bridge {
 /// waits for a name server.
 class TcpAddresses {
  public:
-  /// Throws ConfigurationError if there is no such host.
-  TcpAddresses(const std::string& host, std::uint16_t port);
+  /// As getaddrinfo(3).
+  using Lookup = int (*)(const char*, const char*, const addrinfo*, addrinfo**);
+
+  /// Throws ConfigurationError if there is no such host, DeviceError (disconnected) if nobody can
+  /// tell at present.
+  TcpAddresses(const std::string& host, std::uint16_t port, Lookup look_up = ::getaddrinfo);
 
   /// A connected, non-blocking socket. Tries the addresses in turn, for `time_out` in all.
   /// Throws std::system_error with what the last one answered (ETIMEDOUT: nothing).
