@@ -6,9 +6,10 @@
 namespace biotomy::acquisition {
 namespace {
 
-/// The rig must have been good for so long, within so long.
+/// The rig must have been good for so long, within so long: after a power cut a controller, or the
+/// switch before it, may start more slowly than this computer.
 constexpr std::chrono::seconds kLookFor{2};
-constexpr std::chrono::seconds kLookLimit{60};
+constexpr std::chrono::minutes kLookLimit{5};
 constexpr std::uint16_t kWatchdogFault = 3;
 
 }  // namespace
@@ -22,7 +23,7 @@ UnattendedRestart::Decision UnattendedRestart::poll(
   if (!wanted_) return {};
   if (!began_) began_ = now;
   if (now - *began_ > kLookLimit) {
-    return refuse("the rig was not ready within " + std::to_string(kLookLimit.count()) + " s");
+    return refuse("the rig was not ready within " + std::to_string(kLookLimit.count()) + " min");
   }
   // Somebody was there. Lines that cannot be read, or a link that is not up, may be so at a start.
   if (standing &&

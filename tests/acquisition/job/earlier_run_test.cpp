@@ -299,21 +299,21 @@ TEST_F(CrashedDaemon, GivesItsHeartbeatToAControllerThatStaysFaulted) {
   EXPECT_EQ(bench.stage.heartbeats.size(), 50U);
 }
 
-TEST_F(CrashedDaemon, WaitsForAnOperatorWhenTheRigIsNotReadyWithinAMinute) {
+TEST_F(CrashedDaemon, WaitsForAnOperatorWhenTheRigIsNotReadyWithinFiveMinutes) {
   bench.stage.silent = true;
   bench.start_daemon();
-  bench.tick(60 * 50 + 10);
-  EXPECT_THAT(bench.alarm(), HasSubstr("the rig was not ready within 60 s"));
+  bench.tick(5 * 60 * 50 + 10);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the rig was not ready within 5 min"));
   bench.stage.silent = false;
   bench.tick(500);
   EXPECT_EQ(bench.state(), JobState::faulted);
   EXPECT_EQ(bench.stage.ground().size(), 3U);
 }
 
-TEST_F(CrashedDaemon, GoesOnByItselfWhenTheLinkComesUpWithinAMinute) {
+TEST_F(CrashedDaemon, GoesOnByItselfWhenTheLinkComesUpWithinFiveMinutes) {
   bench.stage.silent = true;
   bench.start_daemon();
-  bench.tick(50 * 50);
+  bench.tick(4 * 60 * 50);
   bench.stage.silent = false;
   EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
 }
