@@ -26,6 +26,7 @@
 #include "acquisition/service/api.hpp"
 #include "acquisition/service/attempt_watch.hpp"
 #include "acquisition/service/counted_stage.hpp"
+#include "acquisition/service/device_wait.hpp"
 #include "acquisition/service/devices.hpp"
 #include "acquisition/service/event_source.hpp"
 #include "acquisition/service/helping_threads.hpp"
@@ -92,7 +93,9 @@ void warn_of_short_watchdog(const ServiceManager& systemd, const Configuration& 
 class Observers {
  public:
   explicit Observers(const Configuration& configuration)
-      : metrics_(configuration.service.tick), work_("the job " + configuration.job.plan.name) {
+      : plan_(configuration.job.plan),
+        metrics_(configuration.service.tick),
+        work_("the job " + plan_.name) {
     const NotifyConfiguration& notify = configuration.notify;
     if (!notify.is_on()) return;
     notifier_ = std::make_unique<Notifier>(notify.notifier, make_channels(notify));
@@ -110,6 +113,21 @@ class Observers {
     for (Notice& notice : watch_->observe(status, began)) notifier_->tell(std::move(notice));
   }
 
+  /// Why it came to no first look. Who waits for a run that was interrupted should not wait in
+  /// vain; who starts a daemon by hand sees for himself.
+  void cannot_start(const std::string& why) {
+    const bool has_started = at_rest_.has_value();
+    if (!notifier_ || has_started || !notifier_->interrupted()) return;
+    Notice notice;
+    notice.kind = NoticeKind::interrupted;
+    notice.text = "the daemon ended while the rig worked (" + *notifier_->interrupted() +
+                  ") and cannot start again: " + why;
+    notice.at = utc_text(std::chrono::system_clock::now());
+    notice.job = plan_.name;
+    notice.layers = plan_.layers;
+    notifier_->tell_of_failed_start(notice);
+  }
+
   const RunMetrics& metrics() const { return metrics_; }
 
   std::vector<Courier::Figures> couriers() const {
@@ -117,6 +135,7 @@ class Observers {
   }
 
  private:
+  const JobPlan& plan_;
   RunMetrics metrics_;
   std::string work_;
   std::unique_ptr<Notifier> notifier_;
@@ -181,7 +200,7 @@ bool bring_to_rest(const StopSignals& signals, const ControlState& control, Sign
     const bool heard = reply.wait_for(milliseconds(0)) == std::future_status::ready;
     if (heard && control.at_rest) return true;
     // As long as it parks it may park, up to its own limit; a hung daemon asks for no time.
-    if (life.give()) systemd.extend_stop(kStopExtension);
+    if (life.give()) systemd.extend(kStopExtension);
     systemd.status("stopping: " + status_line(*board.look()));
     signals.wait(kStopLook);
   }
@@ -204,23 +223,19 @@ void end_if_control_hangs(const Liveness& liveness) {
   }
 }
 
-}  // namespace
-
-int run_daemon(const Configuration& configuration) {
-  const StopSignals signals;
-  start_helping_threads();
-  ServiceManager systemd;
-  warn_of_short_watchdog(systemd, configuration);
+/// Until a signal or a failure ends it. The program's exit code.
+int run_rig(const Configuration& configuration, const StopSignals& signals, ServiceManager& systemd,
+            Observers& observers) {
   const JobPlan& plan = configuration.job.plan;
-  const SampleLock lock(plan.sample);
   const std::filesystem::path journal = plan.sample / reconstruct::SampleFolder::kJournalName;
-  const auto devices_stage = make_stage(configuration.stage);
-  const auto lines = make_lines(configuration.lines);
-  const auto devices_camera = make_camera(configuration.camera);
-  WatchedCamera watched_camera(*devices_camera, std::chrono::system_clock::now);
+  DeviceWait wait(configuration.service.device_wait, systemd, steady_clock::now,
+                  [&](milliseconds time) { return signals.wait(time); });
+  const Devices devices = await_devices(configuration, wait);
+  if (!devices.are_all_there()) return 0;
+  WatchedCamera watched_camera(*devices.camera, std::chrono::system_clock::now);
   CorrectedCamera camera(watched_camera, configuration.job.calibration);
   LinkCounts link;
-  CountedStage stage(*devices_stage, link);
+  CountedStage stage(*devices.stage, link);
 
   ThreadWorker worker_thread;
   WatchedWorker worker(worker_thread, steady_clock::now);
@@ -228,15 +243,14 @@ int run_daemon(const Configuration& configuration) {
   ThreadWorker event_worker;
   OperatorDesk desk;
   StatusBoard board;
-  Observers observers(configuration);
   Access access(Credentials::read_or_make(configuration.service.token_file),
                 configuration.service.access, steady_clock::now, [&](const std::string& line) {
                   log_warning("access", line);
                   desk.remark(line);
                 });
   Job job(configuration.job,
-          {stage, *lines, camera, worker, volume_worker, event_worker, desk, board, &watched_camera,
-           &watched_camera},
+          {stage, *devices.lines, camera, worker, volume_worker, event_worker, desk, board,
+           &watched_camera, &watched_camera},
           real_surroundings(),
           take_over_earlier_run(plan.sample, utc_text(std::chrono::system_clock::now())));
   AttemptWatch attempts(journal);
@@ -282,7 +296,7 @@ int run_daemon(const Configuration& configuration) {
     watch_over(signals, control, liveness, life, systemd, board);
     log_info(kComponent, "is ending: brings the rig to rest");
     systemd.stopping();
-    systemd.extend_stop(kStopExtension);
+    systemd.extend(kStopExtension);
     came_to_rest = bring_to_rest(signals, control, life, systemd, board, desk,
                                  configuration.service.stop_limit);
     if (!came_to_rest && !control.failed) end_if_control_hangs(liveness);
@@ -290,6 +304,23 @@ int run_daemon(const Configuration& configuration) {
   if (!came_to_rest) job.halt(steady_clock::now());
   if (liveness.complaint(steady_clock::now())) end_at_once("the thread for camera and disk hangs");
   return control.failed ? kFailure : 0;
+}
+
+}  // namespace
+
+int run_daemon(const Configuration& configuration) {
+  const StopSignals signals;
+  start_helping_threads();
+  ServiceManager systemd;
+  warn_of_short_watchdog(systemd, configuration);
+  const SampleLock lock(configuration.job.plan.sample);
+  Observers observers(configuration);
+  try {
+    return run_rig(configuration, signals, systemd, observers);
+  } catch (const std::exception& failure) {
+    observers.cannot_start(failure.what());
+    throw;
+  }
 }
 
 int test_notification(const Configuration& configuration) {

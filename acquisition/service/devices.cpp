@@ -39,4 +39,14 @@ std::unique_ptr<bridge::Camera> make_camera(const CameraConfiguration& configura
                                                 configuration.response_timeout);
 }
 
+Devices await_devices(const Configuration& configuration, DeviceWait& wait) {
+  Devices devices;
+  devices.stage = wait.device([&] { return make_stage(configuration.stage); });
+  if (!devices.stage) return devices;
+  devices.lines = wait.device([&] { return make_lines(configuration.lines); });
+  if (!devices.lines) return devices;
+  devices.camera = wait.device([&] { return make_camera(configuration.camera); });
+  return devices;
+}
+
 }  // namespace biotomy::acquisition

@@ -38,7 +38,7 @@ void ServiceManager::stopping() {
   notify("STOPPING=1");
 }
 
-void ServiceManager::extend_stop(std::chrono::milliseconds time) const {
+void ServiceManager::extend(std::chrono::milliseconds time) const {
   notify("EXTEND_TIMEOUT_USEC=" + std::to_string(std::chrono::microseconds(time).count()));
 }
 

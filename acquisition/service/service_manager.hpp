@@ -28,8 +28,8 @@ class ServiceManager {
 
   void stopping();
 
-  /// The stop needs up to `time` from now.
-  void extend_stop(std::chrono::milliseconds time) const;
+  /// The start, or the stop, needs up to `time` from now.
+  void extend(std::chrono::milliseconds time) const;
 
  private:
   std::optional<std::chrono::microseconds> watchdog_period_;

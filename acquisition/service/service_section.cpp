@@ -120,6 +120,11 @@ ServiceConfiguration read_service(const CheckedTable& table) {
       duration(table, "tick_ms", service.tick, "the rig is looked after so often", 1, 200);
   service.stop_limit = duration(table, "stop_limit_ms", service.stop_limit,
                                 "when the daemon is told to end: time to come to rest");
+  service.device_wait =
+      duration(table, "device_wait_ms", service.device_wait,
+               "at the daemon's start: time for devices and name server to be there, as after a "
+               "power cut; then it ends, and systemd starts it again; 0: it ends at once",
+               0);
   return service;
 }
 

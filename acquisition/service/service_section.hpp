@@ -20,6 +20,7 @@ struct ServiceConfiguration {
   ViewerSettings viewer;
   std::chrono::milliseconds tick{20};
   std::chrono::milliseconds stop_limit{120000};
+  std::chrono::milliseconds device_wait{120000};  ///< at the daemon's start, for what is missing
 };
 
 /// [service] of rig.toml. Reading for everybody is refused on an address that other computers

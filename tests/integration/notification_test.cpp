@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/file_content.hpp"
 #include "tests/integration/hook_server.hpp"
 #include "tests/integration/simulated_rig.hpp"
 
@@ -89,6 +90,60 @@ TEST(Notifications, SurviveADaemonThatIsKilledBeforeTheyAreDelivered) {
   const json message = hook.await_message("interrupted");
   ASSERT_FALSE(message.is_null());
   EXPECT_THAT(message.at("text").get<std::string>(), HasSubstr("the job sample, since "));
+}
+
+/// In rig.toml of a daemon that does not run.
+void unplug_camera(const SimulatedRig& rig) {
+  const std::filesystem::path file = rig.folder() / "rig.toml";
+  std::string text = content_of(file);
+  const std::string socket = "[camera]\nbackend = \"socket\"";
+  const std::size_t at = text.find(socket);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, socket.size(), "[camera]\nbackend = \"libcamera\"\ncamera = \"gone\"");
+  std::ofstream(file) << text;
+}
+
+std::vector<json> waiting_messages(const SimulatedRig& rig) {
+  std::vector<json> messages;
+  const auto queue = rig.folder() / "notifications/webhook";
+  for (const auto& entry : std::filesystem::directory_iterator(queue)) {
+    messages.push_back(json::parse(content_of(entry.path())));
+  }
+  return messages;
+}
+
+TEST(Notifications, TellOnceThatAnInterruptedRunWaitsForADaemonThatCannotStart) {
+  HookServer hook;
+  hook.refuse(true);
+  SimulatedRig rig(plan_with("device_wait_ms = 0\n" + webhook(hook), 1000));
+  rig.start_daemon();
+  ASSERT_EQ(rig.rig("start").exit_code, 0);
+  const auto limit = std::chrono::steady_clock::now() + seconds(60);
+  while (rig.status().at("committed") < 1) {
+    ASSERT_LT(std::chrono::steady_clock::now(), limit) << rig.status().dump(1);
+  }
+  rig.kill_daemon();
+  unplug_camera(rig);
+  for (int start = 0; start < 2; ++start) {
+    rig.launch_daemon();
+    EXPECT_EQ(rig.await_daemon_end(seconds(20)).exit_code, 1);
+  }
+  const std::vector<json> waiting = waiting_messages(rig);
+  ASSERT_EQ(waiting.size(), 1U);
+  EXPECT_EQ(waiting.front().at("kind"), "interrupted");
+  EXPECT_THAT(waiting.front().at("text").get<std::string>(),
+              testing::AllOf(HasSubstr("the job sample, since "),
+                             HasSubstr("and cannot start again: camera")));
+}
+
+TEST(Notifications, DoNotTellOfAStartThatFailsWhileNoRunWasInterrupted) {
+  HookServer hook;
+  hook.refuse(true);
+  SimulatedRig rig(plan_with("device_wait_ms = 0\n" + webhook(hook)));
+  unplug_camera(rig);
+  rig.launch_daemon();
+  EXPECT_EQ(rig.await_daemon_end(seconds(20)).exit_code, 1);
+  EXPECT_TRUE(waiting_messages(rig).empty());
 }
 
 TEST(Notifications, DoNotCallARunInterruptedThatWasEndedInOrder) {

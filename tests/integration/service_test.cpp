@@ -80,6 +80,37 @@ TEST(Service, GoesOnWithoutItsTerminalWhenItWasStartedByNohup) {
   EXPECT_EQ(rig.end_daemon().exit_code, 0);
 }
 
+RigPlan plan_without_camera() {
+  RigPlan plan = small_plan(2);
+  plan.daemon_camera = "backend = \"libcamera\"\ncamera = \"no-such-camera\"\n";
+  return plan;
+}
+
+TEST(Service, WaitsForADeviceThatIsMissingUntilItIsToldToEnd) {
+  const TemporaryFolder folder;
+  NotifySocket systemd(folder / "notify");
+  SimulatedRig rig(plan_without_camera());
+  rig.launch_daemon();
+  EXPECT_TRUE(systemd.await("STATUS=waits for a device: camera", seconds(60)));
+  EXPECT_TRUE(systemd.await("EXTEND_TIMEOUT_USEC=", seconds(60), 1));  // of a second try
+  EXPECT_EQ(systemd.count("READY=1"), 0U);
+  const Outcome end = rig.end_daemon(seconds(20));
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  const std::size_t told = end.errors.find("waits up to 120 s for a device: camera");
+  EXPECT_NE(told, std::string::npos) << end.errors;
+  EXPECT_EQ(end.errors.find("waits up to", told + 1), std::string::npos) << end.errors;
+}
+
+TEST(Service, EndsAtOnceForADeviceThatItIsNotToWaitFor) {
+  RigPlan plan = plan_without_camera();
+  plan.daemon_settings = "device_wait_ms = 0\n";
+  SimulatedRig rig(plan);
+  rig.launch_daemon();
+  const Outcome end = rig.await_daemon_end(seconds(20));
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_THAT(end.errors, HasSubstr("biotomyd: camera"));
+}
+
 TEST(Service, GivesNoSignOfLifeWhileItsControlThreadHangs) {
   const TemporaryFolder folder;
   NotifySocket systemd(folder / "notify", microseconds(15000000));

@@ -20,6 +20,7 @@ using std::chrono::steady_clock;
 
 constexpr const char* kComponent = "notify";
 constexpr const char* kWorkFile = "rig-at-work";
+constexpr const char* kFailedStartFile = "failed-start";
 constexpr std::size_t kMostInHand = 1000;
 constexpr std::chrono::hours kNever{24 * 365};
 
@@ -76,7 +77,10 @@ struct Notifier::State {
       const std::vector<Notice> notices = std::exchange(in_hand, {});
       const std::optional<std::string> at_work = std::exchange(work, std::nullopt);
       lock.unlock();
-      if (at_work) write_work(*at_work);
+      if (at_work) {
+        keep(kWorkFile, *at_work);
+        keep(kFailedStartFile, "");
+      }
       for (const Notice& notice : notices) {
         if (const auto now = fold.take(notice, steady_clock::now())) send(*now);
       }
@@ -92,11 +96,12 @@ struct Notifier::State {
     for (const auto& courier : couriers) courier->take(message);
   }
 
-  void write_work(const std::string& at_what) const {
-    const std::filesystem::path file = settings.queue / kWorkFile;
+  /// An empty text: the file goes.
+  void keep(const char* name, const std::string& text) const {
+    const std::filesystem::path file = settings.queue / name;
     try {
-      if (!at_what.empty()) {
-        reconstruct::write_durably(file, at_what);
+      if (!text.empty()) {
+        reconstruct::write_durably(file, text);
       } else if (std::filesystem::remove(file)) {
         reconstruct::sync_folder(settings.queue);
       }
@@ -129,6 +134,12 @@ void Notifier::tell(Notice notice) {
     state_->wake = true;
   }
   state_->changed.notify_all();
+}
+
+void Notifier::tell_of_failed_start(const Notice& notice) {
+  if (content_of(state_->settings.queue / kFailedStartFile) == notice.text) return;
+  tell(notice);
+  state_->keep(kFailedStartFile, notice.text);
 }
 
 void Notifier::work(std::string at_what) {

@@ -36,6 +36,10 @@ class Notifier {
 
   void tell(Notice notice);
 
+  /// That the daemon cannot start, of which each of many tries in a row would tell: it is told once
+  /// until the text is another or a daemon has started. Writes a file.
+  void tell_of_failed_start(const Notice& notice);
+
   /// The rig works, and at what; an empty text: it is at rest.
   void work(std::string at_what);
 

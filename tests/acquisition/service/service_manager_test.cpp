@@ -24,7 +24,7 @@ TEST(ServiceManager, TellsSystemdHowTheDaemonIs) {
   manager.status("grinding");
   manager.alive();
   manager.stopping();
-  manager.extend_stop(milliseconds(10000));
+  manager.extend(milliseconds(10000));
   ASSERT_TRUE(systemd.await("EXTEND_TIMEOUT_USEC", seconds(60)));
   EXPECT_THAT(systemd.messages(), ElementsAre("READY=1", "STATUS=grinding", "WATCHDOG=1",
                                               "STOPPING=1", "EXTEND_TIMEOUT_USEC=10000000"));

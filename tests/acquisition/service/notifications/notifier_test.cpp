@@ -81,5 +81,25 @@ TEST_F(NotifierTest, RemembersThatTheRigWorked) {
   EXPECT_FALSE(notifier()->interrupted());
 }
 
+TEST_F(NotifierTest, TellsOfAStartThatFailsAgainOnlyWhenItFailsOtherwiseOrOneDidNotFail) {
+  for (const char* why : {"no camera", "no camera", "no lines"}) {
+    notifier()->tell_of_failed_start(fault(why));
+  }
+  {
+    const auto teller = notifier();
+    ASSERT_TRUE(log->await_delivered(2));
+    teller->work("");  // a daemon that looks at the rig
+  }
+  const auto teller = notifier();
+  teller->tell_of_failed_start(fault("no lines"));
+  ASSERT_TRUE(log->await_delivered(3));
+  const auto text = [&](std::size_t message) {
+    return json::parse(log->delivered[message]).at("text").get<std::string>();
+  };
+  EXPECT_EQ(text(0), "no camera");
+  EXPECT_EQ(text(1), "no lines");
+  EXPECT_EQ(text(2), "no lines");
+}
+
 }  // namespace
 }  // namespace biotomy::tests
