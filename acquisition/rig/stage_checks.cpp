@@ -12,9 +12,13 @@ bool wheel_stands(const bridge::StageStatus& status, const SafetyLimits& limits)
   return std::abs(status.spindle_rpm) <= limits.wheel_stands_rpm;
 }
 
-bool wheel_turns(const bridge::StageStatus& status, const SafetyLimits& limits) {
+double turning_rpm(const SafetyLimits& limits) {
   constexpr double kClearly = 3.0;
-  return std::abs(status.spindle_rpm) > kClearly * limits.wheel_stands_rpm;
+  return kClearly * limits.wheel_stands_rpm;
+}
+
+bool wheel_turns(const bridge::StageStatus& status, const SafetyLimits& limits) {
+  return std::abs(status.spindle_rpm) > turning_rpm(limits);
 }
 
 void check_position(const char* axis, bridge::Micrometres actual, bridge::Micrometres expected,

@@ -8,7 +8,8 @@ namespace biotomy::acquisition {
 /// Whether the wheel stands.
 bool wheel_stands(const bridge::StageStatus& status, const SafetyLimits& limits);
 
-/// Whether it clearly does not, where it must.
+/// At more than this it clearly does not, where it must.
+double turning_rpm(const SafetyLimits& limits);
 bool wheel_turns(const bridge::StageStatus& status, const SafetyLimits& limits);
 
 /// Throws StepFailure when the axis is not where it should be.

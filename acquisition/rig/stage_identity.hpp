@@ -12,8 +12,8 @@ namespace biotomy::acquisition {
 /// reason to stop: ask again at the next tick. Throws DeviceError.
 std::optional<bridge::StageIdentity> ask_identity(bridge::Stage& stage);
 
-/// Why nothing may move by this stage: nobody would stop it if the daemon hung. Nothing when it
-/// may.
+/// Why nothing may move by this stage: nobody would stop it soon if the daemon hung, or it would be
+/// stopped although the daemon does not hang. Nothing when it may.
 std::optional<std::string> watchdog_complaint(const SafetyLimits& limits,
                                               const bridge::StageIdentity& stage);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "acquisition/number_text.hpp"
+#include "acquisition/rig/stage_checks.hpp"
 #include "acquisition/service/configuration_keys.hpp"
 #include "acquisition/service/focus_section.hpp"
 #include "acquisition/service/quality_section.hpp"
@@ -299,6 +301,20 @@ void give_trigger_to_camera(const CheckedTable& camera, Configuration& configura
   sync.line = *std::exchange(trigger, std::nullopt);
 }
 
+/// A wheel that grinds must not come near to one that stands, however slowly it is to grind.
+void check_wheel_speeds(const CheckedTable& safety, const JobSettings& job) {
+  constexpr double kOfSpindleSpeed = 1.0 / 3.0;
+  const double most = kOfSpindleSpeed * job.plan.spindle_rpm;
+  const double turning = turning_rpm(job.limits);
+  if (turning <= most) return;
+  safety.reject("wheel_stands_rpm",
+                "where it must stand, a wheel would count as turning only above " +
+                    number_text(turning) +
+                    " rpm, three times as much, and that must be at most a third of "
+                    "job.spindle_rpm, which is " +
+                    number_text(job.plan.spindle_rpm));
+}
+
 Configuration read(const CheckedTable& document) {
   Configuration configuration;
   configuration.job.plan = read_job(document.table("job"));
@@ -313,6 +329,7 @@ Configuration read(const CheckedTable& document) {
   read_quality(document.table("quality"), configuration.job.thresholds, configuration.job.ladder);
   configuration.job.store = read_store(document.table("store"));
   configuration.job.limits = read_safety(document.table("safety"));
+  check_wheel_speeds(document.table("safety"), configuration.job);
   configuration.service = read_service(document.table("service"));
   configuration.notify = read_notify(document.table("notify"));
   return configuration;

@@ -7,17 +7,26 @@ namespace biotomy::acquisition {
 using bridge::CheckedTable;
 using bridge::FlagKey;
 
+namespace {
+
+/// Of what stops the rig when the controller is dead or deaf: more would be no protection.
+constexpr int kLongestSilenceMs = 60000;
+
+}  // namespace
+
 SafetyLimits read_safety(const CheckedTable& table) {
   SafetyLimits safety;
   safety.link_lost = duration(table, "link_lost_ms", safety.link_lost,
-                              "without an answer of the controller for so long, the rig stops");
-  safety.controller_silent =
-      duration(table, "controller_silent_ms", safety.controller_silent,
-               "with the controller's heartbeat unchanged for so long, the rig stops");
-  safety.require_watchdog =
-      table.get(FlagKey{.name = "require_watchdog",
-                        .fallback = safety.require_watchdog,
-                        .description = "refuse a controller that does not watch the daemon"});
+                              "without an answer of the controller for so long, the rig stops", 1,
+                              kLongestSilenceMs);
+  safety.controller_silent = duration(
+      table, "controller_silent_ms", safety.controller_silent,
+      "with the controller's heartbeat unchanged for so long, the rig stops", 1, kLongestSilenceMs);
+  safety.require_watchdog = table.get(
+      FlagKey{.name = "require_watchdog",
+              .fallback = safety.require_watchdog,
+              .description = "refuse a controller that does not watch the daemon, or not within "
+                             "0.25 to 5 s"});
   safety.position_tolerance = length(table, "position_tolerance_um", safety.position_tolerance,
                                      "an axis further from where it should be stops the rig");
   safety.axis_stall =
@@ -80,8 +89,9 @@ SafetyLimits read_safety(const CheckedTable& table) {
                               "while a job is held for it, the disk is asked so often");
   safety.held_limit = duration(table, "held_limit_ms", safety.held_limit,
                                "a job that is held for longer stops with an alarm");
-  safety.command_start = duration(table, "command_start_ms", safety.command_start,
-                                  "within so long the controller starts a command");
+  safety.command_start =
+      duration(table, "command_start_ms", safety.command_start,
+               "within so long the controller starts a command", 1, kLongestSilenceMs);
   safety.read_back =
       duration(table, "read_back_ms", safety.read_back,
                "so long the command number is read back before an unanswered command counts as "

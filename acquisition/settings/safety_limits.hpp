@@ -10,7 +10,7 @@ namespace biotomy::acquisition {
 struct SafetyLimits {
   std::chrono::milliseconds link_lost{1500};          ///< without one good exchange
   std::chrono::milliseconds controller_silent{1000};  ///< its heartbeat unchanged
-  bool require_watchdog = true;  ///< refuse a controller that does not watch the daemon
+  bool require_watchdog = true;  ///< refuse a controller that does not watch the daemon well
   bridge::Micrometres position_tolerance{5.0};
   std::chrono::milliseconds axis_stall{3000};   ///< an axis that is not at its target, unmoved
   std::chrono::milliseconds standstill{30000};  ///< a command under way, and nothing moves at all

@@ -40,7 +40,8 @@ class RunOverABadLine : public testing::TestWithParam<const char*> {
         .listen = GetParam() == std::string("tcp") ? "tcp://127.0.0.1:0" : "rtu://controller.line"};
     plan.twin_stage_settings = "watchdog_timeout = 20000\n";
     plan.daemon_stage_settings = "response_timeout_ms = 50\nbaud = 115200\n";
-    plan.daemon_settings = "[safety]\nlink_lost_ms = 10000\nread_back_ms = 50\n";
+    plan.daemon_settings =
+        "[safety]\nrequire_watchdog = false\nlink_lost_ms = 10000\nread_back_ms = 50\n";
     return plan;
   }
 

@@ -23,7 +23,8 @@ inline RigPlan kernel_plan(int layers) {
   plan.lamp_warm_up_ms = 200;
   plan.tick_ms = 20;
   plan.daemon_settings =
-      "commands_per_minute = 10000\n[safety]\nlink_lost_ms = 5000\ncontroller_silent_ms = 5000\n"
+      "commands_per_minute = 10000\n[safety]\nrequire_watchdog = false\nlink_lost_ms = 5000\n"
+      "controller_silent_ms = 5000\n"
       "command_start_ms = 10000\naxis_stall_ms = 10000\n";
   return plan;
 }

@@ -30,6 +30,24 @@ TEST(Preflight, RefusesAControllerThatDoesNotWatchTheDaemon) {
   expect_refusal(bench, "does not watch the daemon's heartbeat");
 }
 
+TEST(Preflight, RefusesAWatchdogThatBarksTooLateOrTooSoon) {
+  for (const int watchdog_ms : {100, 5001, 60000}) {
+    JobBench bench;
+    bench.stage.identity.watchdog_timeout = std::chrono::milliseconds(watchdog_ms);
+    expect_refusal(bench, "heartbeat for " + std::to_string(watchdog_ms) +
+                              " ms (watchdog_timeout), and should for 250 ms to 5000 ms");
+  }
+}
+
+TEST(Preflight, TakesAnyWatchdogWhenNoneIsRequired) {
+  JobBench bench;
+  bench.settings.limits.require_watchdog = false;
+  bench.stage.identity.watchdog_timeout = std::chrono::milliseconds(60000);
+  bench.start_daemon();
+  bench.say(OperatorCommand::start);
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
 TEST(Preflight, RefusesAToleranceOfAWholeLayer) {
   JobBench bench;
   bench.settings.plan.layer_thickness = {5.0};

@@ -158,6 +158,30 @@ TEST(Configuration, NamesWhoMayAskFromABrowser) {
   }
 }
 
+TEST(Configuration, RefusesAWheelThatWouldCountAsStandingWhileItGrinds) {
+  const auto stands = [](const std::string& rpm) {
+    return changed("[focus]", "[safety]\nwheel_stands_rpm = " + rpm + "\n[focus]");
+  };
+  EXPECT_NO_THROW(stands("166.0")());
+  EXPECT_THAT(
+      stands("200.0"),
+      refuses("safety.wheel_stands_rpm: where it must stand, a wheel would count as turning "
+              "only above 600 rpm, three times as much, and that must be at most a third of "
+              "job.spindle_rpm, which is 1500"));
+  EXPECT_THAT(changed("layers = 1000", "layers = 1000\nspindle_rpm = 40"),
+              refuses("safety.wheel_stands_rpm"));
+}
+
+TEST(Configuration, RefusesToWaitForADeadControllerForMoreThanAMinute) {
+  for (const std::string key : {"link_lost_ms", "controller_silent_ms", "command_start_ms"}) {
+    const auto safety = [&](const std::string& time) {
+      return changed("[focus]", "[safety]\n" + key + " = " + time + "\n[focus]");
+    };
+    EXPECT_NO_THROW(safety("60000")()) << key;
+    EXPECT_THAT(safety("60001"), refuses("safety." + key + ": 60001 is out of range")) << key;
+  }
+}
+
 TEST(Configuration, TellsNobodyUnlessItIsToldWhom) {
   EXPECT_FALSE(parse_configuration(smallest_configuration(), "rig.toml").notify.is_on());
   EXPECT_TRUE(changed("[focus]", "[notify]\ncommand = [\"mail\"]\n[focus]")().notify.is_on());

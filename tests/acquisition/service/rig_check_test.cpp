@@ -124,6 +124,11 @@ TEST_F(RigCheck, ShowsAllThatIsBeyondTheLimits) {
   EXPECT_THAT(findings.all(), Contains(wrong("controller", "the focus of the last layer would")));
 }
 
+TEST_F(RigCheck, ShowsAWatchdogThatBarksTooLate) {
+  bench.stage.identity.watchdog_timeout = milliseconds(60000);
+  EXPECT_THAT(check().all(), Contains(wrong("controller", "next heartbeat for 60000 ms")));
+}
+
 TEST_F(RigCheck, TellsLinesAndControllerApart) {
   bench.lines.inputs = {.estop_pressed = true, .door_open = true};
   bench.stage.status.interlocks.door_open = true;
