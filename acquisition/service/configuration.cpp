@@ -10,6 +10,7 @@
 #include "acquisition/service/quality_section.hpp"
 #include "acquisition/service/safety_section.hpp"
 #include "acquisition/service/store_section.hpp"
+#include "firmware_bridge/camera/capture_time_out.hpp"
 #include "firmware_bridge/wire/checked_table.hpp"
 #include "firmware_bridge/wire/endpoint.hpp"
 #include "reconstruct/errors.hpp"
@@ -213,7 +214,16 @@ CameraConfiguration read_camera(const CheckedTable& table, CameraPlan& plan) {
   plan.settings.blue_gain =
       number(table, "blue_gain", plan.settings.blue_gain, "", 0.01, 100.0, "likewise");
   plan.capture_time_out = duration(table, "capture_timeout_ms", plan.capture_time_out,
-                                   "a camera without a frame after so long does not answer");
+                                   "a camera without a frame after so long does not answer; at "
+                                   "least twelve times exposure_us");
+  const milliseconds least = bridge::least_time_out(plan.settings.exposure);
+  if (plan.capture_time_out < least) {
+    table.reject("capture_timeout_ms", std::to_string(plan.capture_time_out.count()) +
+                                           " is too short for camera.exposure_us, which is " +
+                                           std::to_string(plan.settings.exposure.count()) +
+                                           "; expected at least " + std::to_string(least.count()) +
+                                           ", twelve exposures");
+  }
   return camera;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "firmware_bridge/camera/capture_time_out.hpp"
 #include "firmware_bridge/camera/libcamera_session.hpp"
 #include "firmware_bridge/device_error.hpp"
 
@@ -10,9 +11,6 @@ namespace biotomy::bridge {
 namespace {
 
 using Kind = DeviceError::Kind;
-
-/// Sessions that one capture may use up.
-constexpr int kSessions = 3;
 
 std::string size_text(const CameraDescription& camera) {
   return std::to_string(camera.width) + "x" + std::to_string(camera.height);
@@ -60,9 +58,10 @@ void LibcameraCamera::apply(const CameraSettings& settings) {
 
 Frame LibcameraCamera::capture(std::chrono::milliseconds time_out) {
   const auto deadline = LibcameraSession::Clock::now() + time_out;
-  const std::chrono::milliseconds silence = time_out / kSessions;
+  const auto exposure = applied_ ? applied_->exposure : std::chrono::microseconds(0);
+  const std::chrono::milliseconds silence = longest_silence(time_out, exposure);
   std::string remark;
-  for (int left = kSessions - 1;; --left) {
+  for (int left = kSessionsOfACapture - 1;; --left) {
     try {
       Frame frame = session().capture(deadline, silence);
       frame.remark = remark;

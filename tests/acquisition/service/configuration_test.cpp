@@ -158,6 +158,17 @@ TEST(Configuration, NamesWhoMayAskFromABrowser) {
   }
 }
 
+TEST(Configuration, RefusesACaptureThatIsTooShortForItsExposure) {
+  const auto camera = [](const std::string& keys) {
+    return changed("[camera]", "[camera]\n" + keys);
+  };
+  EXPECT_NO_THROW(camera("exposure_us = 416666")());
+  EXPECT_THAT(camera("exposure_us = 2000000"),
+              refuses("camera.capture_timeout_ms: 5000 is too short for camera.exposure_us, which "
+                      "is 2000000; expected at least 24000, twelve exposures"));
+  EXPECT_NO_THROW(camera("exposure_us = 2000000\ncapture_timeout_ms = 24000")());
+}
+
 TEST(Configuration, RefusesAWheelThatWouldCountAsStandingWhileItGrinds) {
   const auto stands = [](const std::string& rpm) {
     return changed("[focus]", "[safety]\nwheel_stands_rpm = " + rpm + "\n[focus]");
