@@ -72,10 +72,14 @@ void judge_moment(const bridge::Frame& frame, const FrameExpectation& expectatio
     judgement.reject("stale", reason);
     judgement.result().shows_the_face = false;
   };
-  if (expectation.previous_sequence && frame.sequence == *expectation.previous_sequence) {
+  const std::chrono::nanoseconds taken = frame.sensor_timestamp;
+  // A camera that was begun anew counts anew, and may come to the same number.
+  const bool is_younger =
+      expectation.previous_timestamp.count() != 0 && taken > expectation.previous_timestamp;
+  if (!is_younger && expectation.previous_sequence &&
+      frame.sequence == *expectation.previous_sequence) {
     stale("the camera gave frame " + number(frame.sequence) + " again: it is of an earlier moment");
   }
-  const std::chrono::nanoseconds taken = frame.sensor_timestamp;
   if (taken.count() == 0) return;  // the camera doesn't say
   using Milliseconds = std::chrono::duration<double, std::milli>;
   if (expectation.asked_at.count() != 0 && taken < expectation.asked_at) {

@@ -12,7 +12,7 @@ inline constexpr const char* kFaceChange = "face_change";
 // result to false when it does not.
 
 /// The camera's own count and clock: a frame that it gave before, or that was exposed before it was
-/// asked, is stale.
+/// asked, is stale. The clock is believed before the count.
 void judge_moment(const bridge::Frame& frame, const FrameExpectation& expectation,
                   Judgement& judgement);
 

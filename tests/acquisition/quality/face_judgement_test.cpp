@@ -257,6 +257,19 @@ TEST(FaceJudgement, RejectsAFrameWithTheNumberOfTheOneBefore) {
   EXPECT_EQ(moment.slug(), "stale");
 }
 
+TEST(FaceJudgement, BelievesAFrameThatIsYoungerWhateverItsNumber) {
+  Moment moment;
+  moment.frame.sequence = 5;
+  moment.frame.sensor_timestamp = milliseconds(5000);
+  moment.expectation.previous_sequence = 5;
+  moment.expectation.previous_timestamp = milliseconds(4000);
+  EXPECT_EQ(moment.slug(), "");
+  moment.expectation.previous_timestamp = milliseconds(5000);
+  EXPECT_EQ(moment.slug(), "stale");
+  moment.expectation.previous_timestamp = milliseconds(0);  // it is not known
+  EXPECT_EQ(moment.slug(), "stale");
+}
+
 TEST(FaceJudgement, RejectsAFrameThatWasExposedBeforeItWasAskedFor) {
   Moment moment;
   moment.frame.sensor_timestamp = milliseconds(5000);
