@@ -41,6 +41,7 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
              focus_memory_, parts.camera, parts.worker, parts.keeper),
       layer_(start.journal.last_committed + 1),
       attempt_(start.journal.last_attempt),
+      flagged_in_a_row_(start.journal.flagged_in_a_row),
       disk_left_layers_(start.disk_left_layers) {
   expectation_.width = start.camera.width;
   expectation_.height = start.camera.height;
@@ -48,6 +49,8 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
   expectation_.faces = start.recalled.faces;
   expectation_.sharpness = start.recalled.sharpness;
   expectation_.surfaces = start.recalled.surfaces;
+  // What was remembered of the focus is in doubt, and with its peak there is something to compare.
+  focus_again_ = flagged_in_a_row_ > 0;
   if (const auto& focus = start.journal.last_focus) {
     focus_memory_.remember({.layer = focus->layer,
                             .position = focus->column,
@@ -178,8 +181,9 @@ std::optional<JobEvent> LayerCycle::judge() {
                              std::to_string(attempt_) + ": " + found.reason);
   unchanged_ = found.face_changed ? 0 : unchanged_ + 1;
   last_rejection_ = found.reason;
+  lacks_only_sharpness_ = found.lacks_only_sharpness;
   const std::optional<JobEvent> next = after_rejection(climbed_, unchanged_, settings_.ladder);
-  if (found.shows_the_face &&
+  if (lacks_only_sharpness_ &&
       (!best_rejected_ || in_hand_->assessment.sharpness > best_rejected_->assessment.sharpness)) {
     std::swap(best_rejected_, in_hand_);
   }
@@ -190,10 +194,8 @@ std::optional<JobEvent> LayerCycle::judge() {
     focus_again_ = *next == JobEvent::focus_again || *next == JobEvent::clear_again;
     return next;
   }
-  // An earlier frame, too blurred to tell, shows the same old face.
-  const bool may_accept = settings_.ladder.exhausted == LadderSettings::Exhausted::accept &&
-                          best_rejected_ && unchanged_ == 0;
-  if (may_accept) {
+  // What the last frame shows is how things are now, whatever the frames before it were like.
+  if (lacks_only_sharpness_ && may_flag()) {
     in_hand_ = std::exchange(best_rejected_, nullptr);
     in_hand_->assessment.verdict = Verdict::accepted_with_flag;
     remember_judgement();
@@ -201,6 +203,12 @@ std::optional<JobEvent> LayerCycle::judge() {
   }
   if (best_rejected_) reject(*std::exchange(best_rejected_, nullptr));
   return JobEvent::attempts_exhausted;
+}
+
+/// A focus that is gone does not come back by grinding.
+bool LayerCycle::may_flag() const {
+  return settings_.ladder.exhausted == LadderSettings::Exhausted::accept &&
+         flagged_in_a_row_ < settings_.ladder.flagged_in_a_row;
 }
 
 void LayerCycle::remember_judgement() {
@@ -232,7 +240,10 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
   disk_left_layers_ = stored.disk_left_layers;
   if (const auto& ratio = in_hand_->assessment.sharpness_to_peak) focus_memory_.accepted(*ratio);
   expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
-  expectation_.sharpness.accept(in_hand_->assessment.measures);
+  const bool flagged = in_hand_->assessment.verdict == Verdict::accepted_with_flag;
+  flagged_in_a_row_ = flagged ? flagged_in_a_row_ + 1 : 0;
+  // Beside a layer that lacks sharpness the next one would pass for sharp.
+  if (!flagged) expectation_.sharpness.accept(in_hand_->assessment.measures);
   expectation_.surfaces.accept(layer_, in_hand_->assessment.surface, in_hand_->assessment.light,
                                in_hand_->assessment.arrived);
   last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
@@ -318,7 +329,18 @@ std::string LayerCycle::why_exhausted() const {
   }
   return "no frame of layer " + std::to_string(layer_) + " was good enough in " +
          std::to_string(climbed_) + " attempts, at last because " + last_rejection_ +
-         ": look at it, then resume";
+         why_not_flagged() + ": look at it, then resume";
+}
+
+/// Why a policy that accepts has not; empty under another.
+std::string LayerCycle::why_not_flagged() const {
+  if (settings_.ladder.exhausted != LadderSettings::Exhausted::accept) return "";
+  if (!lacks_only_sharpness_) {
+    return "; quality.policy accepts a frame that is not quite sharp, and nothing worse";
+  }
+  return "; quality.flagged_in_a_row allows " + std::to_string(settings_.ladder.flagged_in_a_row) +
+         " layers in a row with a flag, and the last " + std::to_string(flagged_in_a_row_) +
+         " have one";
 }
 
 }  // namespace biotomy::acquisition

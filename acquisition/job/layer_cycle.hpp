@@ -85,6 +85,8 @@ class LayerCycle {
   void begin_assessment();
   void begin_storing();
   std::optional<JobEvent> judge();
+  bool may_flag() const;
+  std::string why_not_flagged() const;
   void remember_judgement();
   std::optional<JobEvent> layer_stored();
   void reject(const JudgedFrame& frame);
@@ -104,6 +106,8 @@ class LayerCycle {
   int climbed_ = 0;             ///< attempts since the ladder was begun
   int unchanged_ = 0;           ///< of these, the last so many found the face of the layer before
   std::string last_rejection_;  ///< why the last frame that was rejected was not good enough
+  bool lacks_only_sharpness_ = false;  ///< that frame
+  int flagged_in_a_row_;               ///< layers, up to the last committed one
   bool focus_again_ = false;
   std::int64_t disk_left_layers_;
   TimePoint step_begin_{};

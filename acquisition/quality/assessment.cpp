@@ -93,8 +93,14 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   judge_surface(image, expectation.surfaces, thresholds, judgement);
   judge_light(expectation.surfaces, thresholds, judgement);
 
-  judge_sharpness(expectation.sharpness, expectation.layer, thresholds, judgement);
-  judge_face_change(expectation.faces, thresholds, judgement);
+  const bool good_so_far = result.slug.empty();
+  const bool has_detail =
+      judge_sharpness(expectation.sharpness, expectation.layer, thresholds, judgement);
+  const bool lacks_sharpness = good_so_far && !result.slug.empty();
+  const bool face_is_told = judge_face_change(expectation.faces, thresholds, judgement);
+  // A face whose detail is gone counts as changed, whatever it is the face of.
+  result.lacks_only_sharpness =
+      lacks_sharpness && has_detail && face_is_told && result.shows_the_face;
   return judgement.finish();
 }
 

@@ -50,6 +50,9 @@ struct Assessment {
   bool shows_the_face = true;
   /// False when a fresh picture shows still the last accepted layer's face.
   bool face_changed = true;
+  /// True when it was rejected for its sharpness and for nothing else, and is still sharp enough to
+  /// show that its face is a new one. Only such a frame may be kept with a flag.
+  bool lacks_only_sharpness = false;
   FaceChange face_change;  ///< from the last accepted layer's face
   // None of these when the frame is not of the sample's size.
   std::shared_ptr<const FacePrint> face;

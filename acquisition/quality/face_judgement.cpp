@@ -120,9 +120,9 @@ void judge_rows(const FaceRecord& faces, const QualityThresholds& thresholds,
   if (!alive || !fresh) judgement.result().shows_the_face = false;
 }
 
-void judge_face_change(const FaceRecord& faces, const QualityThresholds& thresholds,
+bool judge_face_change(const FaceRecord& faces, const QualityThresholds& thresholds,
                        Judgement& judgement) {
-  if (faces.face() == nullptr || thresholds.minimum_face_change <= 0.0) return;
+  if (faces.face() == nullptr || thresholds.minimum_face_change <= 0.0) return true;
   Assessment& result = judgement.result();
   result.face_change = measure_face_change(*result.face, *faces.face());
 
@@ -133,11 +133,11 @@ void judge_face_change(const FaceRecord& faces, const QualityThresholds& thresho
   const std::string before = "layer " + std::to_string(faces.layer()) + "'s";
   if (!whole) {
     judgement.leave_open("too little detail to tell the face from " + before);
-    return;
+    return false;
   }
   if (limit < kCertain * whole->error) {
     judgement.leave_open("too much noise to tell the face from " + before);
-    return;
+    return false;
   }
   const std::string unchanged =
       "the face did not change: %.4f of its detail differs from " + before +
@@ -153,6 +153,7 @@ void judge_face_change(const FaceRecord& faces, const QualityThresholds& thresho
   const bool all_new =
       judgement.at_most("old_part", old.share, thresholds.maximum_old_part, old.slug, torn.c_str());
   if (!changed || !all_new) result.shows_the_face = false;
+  return true;
 }
 
 }  // namespace biotomy::acquisition

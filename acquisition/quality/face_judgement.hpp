@@ -21,9 +21,9 @@ void judge_moment(const bridge::Frame& frame, const FrameExpectation& expectatio
 void judge_rows(const FaceRecord& faces, const QualityThresholds& thresholds, Judgement& judgement);
 
 /// Whether the face is another than the last accepted layer's (`face_change`), everywhere
-/// (`old_part`). Without a layer before, or without detail to tell by, nothing is judged. The
-/// result has its face already.
-void judge_face_change(const FaceRecord& faces, const QualityThresholds& thresholds,
+/// (`old_part`). Without a layer before, or without detail to tell by, nothing is judged; for the
+/// latter it gives false. The result has its face already.
+bool judge_face_change(const FaceRecord& faces, const QualityThresholds& thresholds,
                        Judgement& judgement);
 
 }  // namespace biotomy::acquisition

@@ -63,13 +63,13 @@ void judge_weaker_axis(const SharpnessComparison& found, const std::string& to, 
 
 using References = std::span<const SharpnessRecord::Frame>;
 
-void judge_contrast(References references, const std::string& to,
+bool judge_contrast(References references, const std::string& to,
                     const QualityThresholds& thresholds, Judgement& judgement) {
   const auto contrast = compare_contrast(*judgement.result().measures, references);
-  if (!contrast) return;
+  if (!contrast) return false;
   const std::string reason = "the contrast of fine detail is %.3f of " + to + ", below %.3f";
-  judgement.at_least("fine_contrast", *contrast, thresholds.minimum_fine_contrast, kBlurred,
-                     reason.c_str());
+  return judgement.at_least("fine_contrast", *contrast, thresholds.minimum_fine_contrast, kBlurred,
+                            reason.c_str());
 }
 
 /// What the frame is most likely comes first: it gives the reason.
@@ -83,7 +83,7 @@ void judge_ratio(const SharpnessComparison& found, const std::string& to,
 
 }  // namespace
 
-void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
+bool judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
                      const QualityThresholds& thresholds, Judgement& judgement) {
   Assessment& result = judgement.result();
   const FrameMeasures& frame = *result.measures;
@@ -114,11 +114,8 @@ void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
     judgement.leave_open("nothing to compare the sharpness with");
   }
   // A search that ended far off has a peak without contrast too: the record comes first.
-  if (recent.empty()) {
-    judge_contrast(peak, "the last focus peak", thresholds, judgement);
-  } else {
-    judge_contrast(recent, kLastLayers, thresholds, judgement);
-  }
+  return recent.empty() ? judge_contrast(peak, "the last focus peak", thresholds, judgement)
+                        : judge_contrast(recent, kLastLayers, thresholds, judgement);
 }
 
 }  // namespace biotomy::acquisition

@@ -19,9 +19,12 @@ namespace biotomy::acquisition {
 /// (`sharpness_to_record`), with a wide limit: a search that ended on a wrong peak finds its own
 /// frames sharp.
 ///
+/// Whether the frame still has the contrast of fine detail that it must have, whatever else was
+/// found: false also when that cannot be told.
+///
 /// Limits are lowered by what the ratio may be wrong by: a small frame, or one with little detail,
 /// has the benefit of the doubt.
-void judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
+bool judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
                      const QualityThresholds& thresholds, Judgement& judgement);
 
 }  // namespace biotomy::acquisition

@@ -28,6 +28,14 @@ JournalSummary summary_of(SQLite::Database& database, const std::filesystem::pat
     summary.last_layer_bytes = static_cast<std::uint64_t>(bytes.getColumn(0).getInt64());
   }
 
+  SQLite::Statement unflagged(database,
+                              "SELECT layers.layer FROM layers JOIN attempts "
+                              "ON attempts.id = layers.attempt_id WHERE verdict <> ? "
+                              "ORDER BY layers.layer DESC LIMIT 1");
+  unflagged.bind(1, to_string(Verdict::accepted_with_flag));
+  const std::int64_t last_good = unflagged.executeStep() ? unflagged.getColumn(0).getInt64() : 0;
+  summary.flagged_in_a_row = static_cast<int>(summary.last_committed - last_good);
+
   SQLite::Statement grind(database,
                           "SELECT sequence, layer, target_um, ground_before_um, count_before, "
                           "coalesce(result, '') FROM grinds ORDER BY sequence DESC LIMIT 1");

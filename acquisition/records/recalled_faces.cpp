@@ -38,7 +38,9 @@ RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t
   constexpr std::int64_t kLayers = FaceRecord::kRemembered;
   const std::int64_t first = std::max<std::int64_t>(1, last_committed - kLayers + 1);
   const JournalReader journal(sample.journal_path());
+  std::int64_t last_sharp = 0;
   for (const LayerRow& layer : journal.committed_layers(first, kLayers)) {
+    if (!layer.flagged) last_sharp = layer.layer;
     for (const Metric& metric : layer.metrics) {
       if (metric.name == kFaceChange) recalled.faces.recall(metric.value);
     }
@@ -48,7 +50,11 @@ RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t
   const auto face = std::make_shared<const FacePrint>(take_face_print(image));
   recalled.faces.saw(*face);
   recalled.faces.accept(last_committed, face, {});
-  recalled.sharpness.accept(std::make_shared<const FrameMeasures>(measure_frame(image)));
+  if (last_sharp > 0) {
+    const cv::Mat sharp =
+        last_sharp == last_committed ? image : read_layer(sample.layer_path(last_sharp));
+    recalled.sharpness.accept(std::make_shared<const FrameMeasures>(measure_frame(sharp)));
+  }
   const auto surface = std::make_shared<const SurfacePrint>(take_surface_print(image));
   recalled.surfaces.accept(last_committed, surface,
                            FrameLight{.casting = learn_casting(surface->light)});

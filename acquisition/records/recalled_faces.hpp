@@ -19,9 +19,9 @@ struct RecalledFaces {
   SurfaceRecord surfaces;
 };
 
-/// What a job that goes on must know of the faces before: the last committed layer's image is read
-/// by `read_layer`, how much the faces changed is in the journal. Nothing without a committed
-/// layer. Throws SampleError when the image is damaged, JournalError.
+/// What a job that goes on must know of the faces before: `read_layer` reads the last committed
+/// layer's image (for the sharpness the last one's without a flag), the journal says how much the
+/// faces changed. Nothing without layers. Throws JournalError, SampleError for a damaged image.
 RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t last_committed,
                            const std::function<cv::Mat(const std::filesystem::path&)>& read_layer);
 

@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
   auto* config = app.add_option("--config", file, "the configuration, rig.toml");
   app.add_option("--qc-policy", qc_policy,
                  "instead of the configuration's quality.policy, when no photograph of a layer was "
-                 "good enough: pause the rig, or accept the sharpest with a flag")
+                 "good enough: pause the rig, or accept the sharpest with a flag if it lacks "
+                 "nothing but sharpness")
       ->check(CLI::IsMember({"pause", "accept"}))
       ->needs(config);
   app.add_flag("--configuration-reference", reference,

@@ -55,8 +55,12 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
       .fallback = "pause",
       .choices = {"pause", "accept"},
       .description = "when no attempt was good enough: pause the rig, or accept the sharpest with "
-                     "a flag"});
+                     "a flag if it lacks nothing but sharpness"});
   ladder.exhausted = exhausted_policy(policy);
+  ladder.flagged_in_a_row =
+      count(table, "flagged_in_a_row", ladder.flagged_in_a_row, 1, 1000,
+            "layers one after the other that are accepted with a flag; then the rig pauses, since "
+            "a focus that is lost does not come back by grinding");
   thresholds.minimum_sharpness_ratio =
       number(table, "minimum_sharpness_ratio", thresholds.minimum_sharpness_ratio, "", 0.0, 10.0,
              "sharpness of a frame relative to this layer's focus search, or without one to the "

@@ -198,7 +198,7 @@ bridge::Frame FakeCamera::capture(std::chrono::milliseconds) {
   const double defocus = std::abs(stage.status.ground_to.value - column_to_face_um - plane);
   bridge::Frame frame;
   constexpr double kNothingLeft = 50.0;  // pixels of blur; more would take long and look the same
-  frame.image = ground_face(width, height, std::min(0.5 + defocus / 20.0, kNothingLeft),
+  frame.image = ground_face(width, height, std::min(0.5 + veil + defocus / 20.0, kNothingLeft),
                             stuck_face_um.value_or(stage.status.ground_to.value));
   add_noise(frame.image, static_cast<std::uint64_t>(captures));
   if (black_frames > 0) {

@@ -100,6 +100,7 @@ struct FakeCamera : bridge::Camera {
   int late_frames = 0;                  ///< so many of the next frames do not arrive in time
   std::string remark;                   ///< of its frames
   int black_frames = 0;                 ///< so many of the next frames are black
+  double veil = 0.0;                    ///< pixels of blur that no focus takes away
   std::optional<double> stuck_face_um;  ///< shows the face of this depth, whatever is ground
   bool frozen = false;                  ///< gives its last picture again, with a new number
   int old_frames = 0;                   ///< so many of the next frames were exposed long ago

@@ -352,18 +352,95 @@ TEST(Job, TakesAgainAFrameWhoseNumberItHasSeenAlready) {
   EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'stale'"), 1);
 }
 
+/// A job that accepts, and to which no frame is sharp enough.
+struct UnsharpBench : JobBench {
+  UnsharpBench() {
+    settings.ladder.exhausted = LadderSettings::Exhausted::accept;
+    settings.thresholds.minimum_sharpness_ratio = 2.0;
+    start_daemon();
+  }
+};
+
 TEST(Job, AcceptsTheSharpestWithAFlagWhenConfiguredSo) {
-  JobBench bench;
+  UnsharpBench bench;
   bench.settings.plan.layers = 1;
-  bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
   bench.settings.ladder.max_attempts = 2;
-  bench.settings.thresholds.minimum_brightness = 0.9;  // nothing is good enough
   bench.start_daemon();
   bench.start_job();
   ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
   EXPECT_EQ(bench.count_rows("attempts"), 2);
   EXPECT_EQ(bench.count_rows("attempts", "verdict = 'rejected'"), 1);
   EXPECT_EQ(bench.count_rows("attempts", "verdict = 'accepted_with_flag'"), 1);
+}
+
+TEST(Job, AcceptsNothingWithAFlagThatLacksMoreThanSharpness) {
+  JobBench bench;
+  bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
+  bench.camera.black_frames = 1000000;
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'too-dark'"), 4);
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+  EXPECT_EQ(bench.stage.ground().size(), 2U);
+  EXPECT_THAT(bench.events_of_kind("alarm"), HasSubstr("the lamp is dark"));
+  EXPECT_THAT(
+      bench.events_of_kind("alarm"),
+      HasSubstr("quality.policy accepts a frame that is not quite sharp, and nothing worse"));
+}
+
+TEST(Job, AcceptsNoEarlierFrameOfALayerWhoseLastOneLacksMoreThanSharpness) {
+  UnsharpBench bench;
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(1)) << bench.alarm();
+  const auto second_attempt = [&] {
+    const auto status = bench.board.look();
+    return status->layer == 2 && status->attempt == 2 && status->state == JobState::assessing;
+  };
+  for (int i = 0; i < 5000 && !second_attempt(); ++i) bench.tick();
+  bench.camera.black_frames = 1000000;
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'blurred'"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 2 AND slug = 'too-dark'"), 2);
+  EXPECT_EQ(bench.count_rows("layers"), 1);
+}
+
+TEST(Job, PausesWhenTheLayersBeforeHaveAFlagAlsoAfterARestart) {
+  UnsharpBench bench;
+  bench.settings.ladder.flagged_in_a_row = 2;
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "verdict = 'accepted_with_flag'"), 2);
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND verdict = 'rejected'"), 4);
+  EXPECT_THAT(bench.events_of_kind("alarm"),
+              HasSubstr("quality.flagged_in_a_row allows 2 layers in a row with a flag, and the "
+                        "last 2 have one: look at it, then resume"));
+
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND verdict = 'rejected'"), 8);
+
+  bench.settings.thresholds = {};
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("layers"), 5);
+}
+
+TEST(Job, MeasuresNoLayerByOneThatHasAFlag) {
+  JobBench bench;
+  bench.settings.plan.layers = 9;
+  bench.settings.ladder.exhausted = LadderSettings::Exhausted::accept;
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(3)) << bench.alarm();
+  bench.camera.veil = 0.2;
+  ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("layers"), 6);
+  EXPECT_EQ(bench.count_rows("attempts", "verdict = 'accepted_with_flag'"), 3);
 }
 
 }  // namespace

@@ -42,6 +42,35 @@ TEST(Assessment, RejectsABlurredFrameAndSaysHowMuch) {
   EXPECT_THAT(blurred.reason, HasSubstr("of this layer's focus peak, below "));
 }
 
+TEST(Assessment, TellsAFrameThatLacksOnlySharpnessFromOthers) {
+  Judged judged;
+  EXPECT_FALSE(judged.assessment().lacks_only_sharpness);
+  judged.frame.image = ground_face(96, 64, 0.75, 1000.0);
+  EXPECT_EQ(judged.assessment().slug, "blurred");
+  EXPECT_TRUE(judged.assessment().lacks_only_sharpness);
+  judged.frame.image *= 0.1;  // and too dark
+  EXPECT_FALSE(judged.assessment().lacks_only_sharpness);
+}
+
+// Of whatever face it is, it counts as changed.
+TEST(Assessment, DoesNotSayThatAFrameWhoseDetailIsGoneLacksOnlySharpness) {
+  Judged judged;
+  const auto face = [](double sigma, double depth_um) {
+    cv::Mat image = ground_face(96, 64, sigma, depth_um);
+    add_noise(image, static_cast<std::uint64_t>(depth_um));
+    return image;
+  };
+  judged.expectation.layer = 2;
+  judged.expectation.faces.accept(
+      1, std::make_shared<const FacePrint>(take_face_print(face(0.6, 980.0))), {});
+  judged.frame.image = face(0.75, 1000.0);
+  EXPECT_TRUE(judged.assessment().lacks_only_sharpness) << judged.assessment().reason;
+  judged.frame.image = face(12.0, 1000.0);
+  EXPECT_EQ(judged.assessment().slug, "blurred");
+  EXPECT_TRUE(judged.assessment().shows_the_face);
+  EXPECT_FALSE(judged.assessment().lacks_only_sharpness);
+}
+
 TEST(Assessment, RejectsABlackFrame) {
   Judged judged;
   judged.frame.image.setTo(cv::Scalar::all(2));

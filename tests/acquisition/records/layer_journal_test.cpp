@@ -122,6 +122,19 @@ TEST_F(LayerJournalTest, RemembersAcrossARestart) {
   EXPECT_EQ(summary.last_focus->column.value, 612.5);
 }
 
+TEST_F(LayerJournalTest, CountsTheLastLayersThatHaveAFlag) {
+  LayerJournal journal(path);
+  const auto commit = [&](std::int64_t layer, Verdict verdict) {
+    journal.commit_layer(attempt(layer, 1, verdict), 1, kAt);
+    return journal.summary().flagged_in_a_row;
+  };
+  EXPECT_EQ(journal.summary().flagged_in_a_row, 0);
+  EXPECT_EQ(commit(1, Verdict::accepted_with_flag), 1);
+  EXPECT_EQ(commit(2, Verdict::accepted), 0);
+  EXPECT_EQ(commit(3, Verdict::accepted_with_flag), 1);
+  EXPECT_EQ(commit(4, Verdict::accepted_with_flag), 2);
+}
+
 TEST_F(LayerJournalTest, WritesDownHowTheFaceLeans) {
   LayerJournal journal(path);
   journal.record_focus(

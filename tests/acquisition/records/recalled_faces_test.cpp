@@ -25,11 +25,12 @@ struct Past {
   LayerJournal journal{sample.journal_path()};
   std::vector<std::filesystem::path> read;
 
-  void commit(std::int64_t layer, std::optional<double> change) {
+  void commit(std::int64_t layer, std::optional<double> change,
+              Verdict verdict = Verdict::accepted) {
     AttemptRow attempt;
     attempt.layer = layer;
     attempt.attempt = 1;
-    attempt.assessment.verdict = Verdict::accepted;
+    attempt.assessment.verdict = verdict;
     if (change) attempt.assessment.metrics.push_back({kFaceChange, *change, 0.01, true});
     journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
   }
@@ -64,6 +65,23 @@ TEST(RecalledFaces, AreTheLastLayersImageAndTheChangesInTheJournal) {
   EXPECT_DOUBLE_EQ(faces.least_change().value(), 0.2);
   EXPECT_EQ(faces.recent_frames().size(), 1U);
   EXPECT_EQ(recalled.sharpness.recent().size(), 1U);
+}
+
+TEST(RecalledFaces, AreAsSharpAsTheLastLayerWithoutAFlag) {
+  Past past;
+  past.commit(1, std::nullopt);
+  past.commit(2, 0.2);
+  past.commit(3, 0.2, Verdict::accepted_with_flag);
+  const RecalledFaces recalled = past.recall(3);
+  EXPECT_EQ(recalled.faces.layer(), 3);
+  EXPECT_EQ(past.read, (std::vector{past.sample.layer_path(3), past.sample.layer_path(2)}));
+  EXPECT_EQ(recalled.sharpness.recent().size(), 1U);
+}
+
+TEST(RecalledFaces, OfLayersThatAllHaveAFlagAreNoMeasureOfSharpness) {
+  Past past;
+  past.commit(1, std::nullopt, Verdict::accepted_with_flag);
+  EXPECT_TRUE(past.recall(1).sharpness.recent().empty());
 }
 
 TEST(RecalledFaces, OfLongAgoDoNotCount) {
