@@ -1,8 +1,8 @@
 #include "acquisition/calibration/calibration_record.hpp"
 
 #include <fstream>
+#include <optional>
 #include <sstream>
-#include <system_error>
 
 #include <nlohmann/json.hpp>
 
@@ -28,17 +28,24 @@ std::string file_name(FieldKind kind, const std::string& sha256) {
   return std::string(to_string(kind)) + "-" + short_hash(sha256) + ".tif";
 }
 
-/// Means of this kind that the record does not name. What cannot be removed does no harm.
-void remove_former(const fs::path& folder, FieldKind kind, const std::string& in_force) {
-  const std::string prefix = std::string(to_string(kind)) + "-";
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(prefix) && name.ends_with(".tif") && name != in_force) {
-      std::error_code ignored;
-      fs::remove(entry.path(), ignored);
-    }
-  }
+/// Nothing of a file that is not there.
+std::optional<std::string> text_of(const fs::path& path) {
+  const std::ifstream file(path);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Writes the record in force, if there is one, beside the mean that it names. A record that cannot
+/// be read names none.
+void keep_former(const fs::path& folder, FieldKind kind) {
+  const std::string text = text_of(folder / record_name(kind)).value_or("");
+  const ordered_json record = ordered_json::parse(text, nullptr, false);
+  if (!record.is_object() || !record.contains("file") || !record["file"].is_string()) return;
+  const fs::path mean = record["file"].get<std::string>();
+  if (mean.has_parent_path()) return;
+  write_calibration_file(folder, mean.stem().string() + ".json", record);
 }
 
 ordered_json to_json(const CalibrationFrame& frame, FieldKind kind, const std::string& sha256) {
@@ -73,8 +80,8 @@ std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
     std::string sha256 = reconstruct::sha256(bytes);
     const std::string name = file_name(kind, sha256);
     reconstruct::write_durably(folder / name, bytes);
+    keep_former(folder, kind);
     write_calibration_file(folder, record_name(kind), to_json(frame, kind, sha256));
-    remove_former(folder, kind, name);
     return sha256;
   } catch (const reconstruct::SampleError& error) {
     throw CalibrationError(std::string("the calibration was not stored: ") + error.what());
@@ -83,19 +90,17 @@ std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
 
 CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) {
   const fs::path path = folder / record_name(kind);
-  std::ifstream file(path);
-  if (!file) {
+  const auto text = text_of(path);
+  if (!text) {
     throw CalibrationError("there is no " + std::string(to_string(kind)) + " field in " +
                            folder.string() + again(kind));
   }
-  std::ostringstream text;
-  text << file.rdbuf();
   CalibrationFrame frame;
   int width = 0;
   int height = 0;
   std::string name;
   try {
-    const auto record = nlohmann::json::parse(text.str());
+    const auto record = nlohmann::json::parse(*text);
     name = record.at("file").get<std::string>();
     frame.sha256 = record.at("sha256").get<std::string>();
     frame.taken_at = record.at("taken_at").get<std::string>();

@@ -38,8 +38,9 @@ std::string short_hash(const std::string& sha256);
 
 /// Writes it into the folder, which is made if need be, and gives its hash: the mean as
 /// `flat-….tif`, then `flat.json`, which names it and holds the rest. Until that is on the disk,
-/// the frame that was there before is in force; afterwards its file is removed. Throws
-/// CalibrationError.
+/// the frame that was there before is in force. Afterwards it is kept, its `flat.json` under its
+/// mean's name as `flat-….json`: a sample that was begun with it may have to be gone on with.
+/// Throws CalibrationError.
 std::string write_calibration_frame(const std::filesystem::path& folder, FieldKind kind,
                                     const CalibrationFrame& frame);
 

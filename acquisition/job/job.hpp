@@ -99,6 +99,7 @@ class Job {
   OperatorReply calibrate(CalibrationKind kind, TimePoint now);
   OperatorReply calibrate_focus(TimePoint now);
   std::optional<std::string> why_no_calibration() const;
+  std::optional<std::string> why_no_field() const;
   OperatorReply calibration_begun(const char* kind);
   void poll_calibration(TimePoint now);
   void give_up_calibration(const std::string& why, TimePoint now);

@@ -32,6 +32,17 @@ std::optional<std::string> Job::why_no_calibration() const {
   return std::nullopt;
 }
 
+/// All layers of a sample are corrected by the same fields. What else is calibrated becomes part of
+/// the configuration, which says so when it is changed.
+std::optional<std::string> Job::why_no_field() const {
+  if (auto why = why_no_calibration()) return why;
+  if (committed_ == 0 || committed_ >= settings_.plan.layers) return std::nullopt;
+  return "the sample " + settings_.plan.sample.string() + " has " + std::to_string(committed_) +
+         " of its " + std::to_string(settings_.plan.layers) +
+         " layers, and the others must be corrected as these are: finish it first, or name another "
+         "sample in job.sample and restart the daemon";
+}
+
 OperatorReply Job::calibration_begun(const char* kind) {
   calibration_status_ = {kind, CalibrationStatus::Progress::running, calibration_->progress()};
   return {true, "the calibration has begun"};

@@ -136,6 +136,9 @@ std::optional<std::string> Job::why_not(OperatorCommand command) const {
       return "the job is " + state + ": there is nothing to abort";
     case OperatorCommand::acknowledge:
       return why_not_acknowledge();
+    case OperatorCommand::calibrate_flat:
+    case OperatorCommand::calibrate_dark:
+      return why_no_field();
     default:
       return why_no_calibration();
   }

@@ -46,13 +46,32 @@ TEST_F(CalibrationRecord, TakesThePlaceOfTheFormerOneAndOfNoOther) {
   write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
   write_calibration_frame(calibrations_, FieldKind::dark, frame_of(5));
   write_calibration_frame(calibrations_, FieldKind::flat, frame_of(700));
-  EXPECT_EQ(files(), 4U);
   EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat).mean.at<cv::Vec3w>(0, 0)[0],
             700);
   EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::dark).mean.at<cv::Vec3w>(0, 0)[0], 5);
-  // The same once more is the same file.
+}
+
+TEST_F(CalibrationRecord, IsKeptWhenAnotherTakesItsPlaceAndCanBeRestored) {
+  const std::string hash = write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
   write_calibration_frame(calibrations_, FieldKind::flat, frame_of(700));
-  EXPECT_EQ(files(), 4U);
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(900));
+  EXPECT_EQ(files(), 6U);
+  std::filesystem::copy_file(calibrations_ / ("flat-" + short_hash(hash) + ".json"),
+                             calibrations_ / "flat.json",
+                             std::filesystem::copy_options::overwrite_existing);
+  const CalibrationFrame restored = read_calibration_frame(calibrations_, FieldKind::flat);
+  EXPECT_EQ(restored.sha256, hash);
+  EXPECT_EQ(restored.mean.at<cv::Vec3w>(0, 0)[0], 500);
+  EXPECT_EQ(restored.settings, frame_of(500).settings);
+}
+
+TEST_F(CalibrationRecord, TakesThePlaceOfOneThatIsDamaged) {
+  for (const char* text : {"", "no JSON", "[]", R"({"file": 3})", R"({"file": "../flat.tif"})"}) {
+    std::filesystem::create_directories(calibrations_);
+    reconstruct::write_text(calibrations_ / "flat.json", text);
+    write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
+    EXPECT_EQ(files(), 2U) << text;
+  }
 }
 
 TEST_F(CalibrationRecord, ThatIsMissingOrDamagedIsRefusedWithWhatToDo) {

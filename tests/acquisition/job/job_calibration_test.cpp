@@ -152,6 +152,34 @@ TEST_F(JobCalibration, IsRefusedUnlessTheRigIsAtRestAndWell) {
               HasSubstr("calibrate before it begins or after its end"));
 }
 
+TEST_F(JobCalibration, OfAFieldIsRefusedWhileASampleIsHalfMade) {
+  bench.settings.camera.settings.exposure = std::chrono::microseconds(10000);
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
+  bench.say(OperatorCommand::abort);
+  ASSERT_TRUE(bench.reach(JobState::aborted)) << bench.alarm();
+  const auto expect_refusals = [&] {
+    for (const auto command : {OperatorCommand::calibrate_flat, OperatorCommand::calibrate_dark}) {
+      const OperatorReply reply = bench.say(command);
+      EXPECT_FALSE(reply.accepted);
+      EXPECT_THAT(reply.sentence, HasSubstr("has 2 of its 5 layers"));
+      EXPECT_THAT(reply.sentence, HasSubstr("finish it first, or name another sample"));
+    }
+    EXPECT_TRUE(bench.say(OperatorCommand::calibrate_white).accepted);
+    bench.say(OperatorCommand::abort);
+  };
+  expect_refusals();
+  bench.start_daemon();
+  bench.say(OperatorCommand::acknowledge);
+  expect_refusals();
+
+  bench.start_job();
+  ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_TRUE(calibrate(OperatorCommand::calibrate_flat).accepted);
+  EXPECT_EQ(calibration().progress, Progress::done) << calibration().sentence;
+}
+
 TEST_F(JobCalibration, IsGivenUpWhenTheDoorIsOpened) {
   bench.settings.plan.lamp_warm_up = std::chrono::seconds(2);
   bench.start_daemon();
