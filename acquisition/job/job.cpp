@@ -91,6 +91,7 @@ Job::Job(const JobSettings& settings, const JobParts& parts, Surroundings surrou
       unattended_restart_(
           earlier.was_running && settings.plan.after_restart == JobPlan::AfterRestart::go_on,
           settings_.limits),
+      clock_wait_(settings_.limits),
       conditioning_(settings_.limits),
       hold_(settings_.limits) {
   commands_.raise_to(earlier.last_sequence);
@@ -253,7 +254,7 @@ std::optional<JobEvent> Job::poll_step(TimePoint now) {
   if (is_layer_step(state_)) return cycle_->poll(state_, *fresh_, now);
   switch (state_) {
     case JobState::preflight:
-      return poll_preflight();
+      return poll_preflight(now);
     case JobState::recovering:
       return poll_recovering();
     case JobState::homing:
@@ -306,7 +307,7 @@ void Job::enter(JobState state, TimePoint now) {
   note("state", std::string("from ") + to_string(from));
   switch (state) {
     case JobState::preflight:
-      begin_preflight();
+      begin_preflight(now);
       break;
     case JobState::homing:
       homing_.begin();
@@ -386,8 +387,9 @@ std::string Job::waiting_for() const {
   if (is_layer_step(state_)) return cycle_->waiting_for(state_);
   switch (state_) {
     case JobState::preflight:
-      return identity_ ? "waits for the camera, the sample and the disk"
-                       : "waits for the controller to say what it is";
+      if (!identity_) return "waits for the controller to say what it is";
+      return clock_wait_.waiting_for().empty() ? "waits for the camera, the sample and the disk"
+                                               : clock_wait_.waiting_for();
     case JobState::recovering:
       return "waits for the controller to be idle and the wheel to stand";
     case JobState::homing:

@@ -9,6 +9,7 @@
 
 #include "acquisition/calibration/calibration_run.hpp"
 #include "acquisition/calibration/frame_calibration.hpp"
+#include "acquisition/job/clock_wait.hpp"
 #include "acquisition/job/earlier_run.hpp"
 #include "acquisition/job/early_notes.hpp"
 #include "acquisition/job/hold.hpp"
@@ -111,13 +112,13 @@ class Job {
   void publish();
 
   std::optional<JobEvent> poll_step(TimePoint now);
-  std::optional<JobEvent> poll_preflight();
+  std::optional<JobEvent> poll_preflight(TimePoint now);
   std::optional<JobEvent> poll_recovering();
   std::optional<JobEvent> poll_conditioning(TimePoint now);
   std::optional<JobEvent> poll_finishing(TimePoint now);
   std::optional<JobEvent> poll_resetting(TimePoint now);
-  void begin_preflight();
-  void begin_inspection();
+  void begin_preflight(TimePoint now);
+  void begin_inspection(TimePoint now);
   void begin_resetting(TimePoint now);
 
   /// Takes the transition, which the table must allow, and begins the step it leads to.
@@ -179,6 +180,7 @@ class Job {
   std::future<PreflightFindings> inspection_;
   std::optional<bridge::StageIdentity> identity_;  ///< once the preflight has asked
   PreflightFindings findings_;
+  ClockWait clock_wait_;
   Conditioning conditioning_;
   Hold hold_;
   std::optional<RecordKeeper> keeper_;

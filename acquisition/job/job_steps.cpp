@@ -10,7 +10,7 @@
 
 namespace biotomy::acquisition {
 
-void Job::begin_preflight() {
+void Job::begin_preflight(TimePoint now) {
   job_begun_ = true;
   alarm_.reset();
   supervision_.forget_positions();
@@ -28,24 +28,37 @@ void Job::begin_preflight() {
       [records = std::exchange(findings_.records, nullptr)]() mutable { records.reset(); });
   findings_ = PreflightFindings();
   inspection_ = {};
-  begin_inspection();
+  clock_wait_.begin();
+  begin_inspection(now);
 }
 
-/// Once the controller has said what it is and fits.
-void Job::begin_inspection() {
-  identity_ = ask_identity(parts_.stage);
-  if (!identity_) return;
-  check_stage(settings_, *identity_);
-  inspection_ = run_on(
-      parts_.worker, [settings = settings_, camera = &parts_.camera, surroundings = surroundings_] {
-        return inspect(settings, *camera, surroundings);
-      });
+/// Once the controller has said what it is and fits, and the clock can be right.
+void Job::begin_inspection(TimePoint now) {
+  if (!identity_) {
+    identity_ = ask_identity(parts_.stage);
+    if (!identity_) return;
+    check_stage(settings_, *identity_);
+  }
+  if (!clock_wait_.poll(surroundings_.wall_clock(), now)) {
+    step_begin_ = now;  // the wait has its own limit, and leaves the rest of the step its own
+    return;
+  }
+  inspection_ = run_on(parts_.worker,
+                       [settings = settings_, camera = &parts_.camera, surroundings = surroundings_,
+                        wrong_record = clock_wait_.wrong_record()] {
+                         return inspect(settings, *camera, surroundings, wrong_record);
+                       });
 }
 
-std::optional<JobEvent> Job::poll_preflight() {
-  if (!identity_) begin_inspection();
-  if (!identity_ || !is_ready(inspection_)) return std::nullopt;
-  findings_ = inspection_.get();
+std::optional<JobEvent> Job::poll_preflight(TimePoint now) {
+  if (!inspection_.valid()) begin_inspection(now);
+  if (!inspection_.valid() || !is_ready(inspection_)) return std::nullopt;
+  try {
+    findings_ = inspection_.get();
+  } catch (const ClockBehind& behind) {
+    clock_wait_.is_behind(behind.record_at());
+    return std::nullopt;
+  }
   commands_.raise_to(std::max(
       {findings_.journal.last_sequence, fresh_->sequence_started, fresh_->sequence_finished}));
   keeper_.emplace(parts_.worker, findings_.records);

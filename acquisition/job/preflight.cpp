@@ -15,6 +15,19 @@ void refuse(const Complaints& complaints) {
   if (!complaints.empty()) throw Failure(complaints.front());
 }
 
+void check_clock(SampleRecords& records, const std::string& last_event_at,
+                 std::chrono::system_clock::time_point clock, const std::string& wrong_record) {
+  const Complaints complaints = clock_complaints(clock, last_event_at);
+  if (complaints.empty()) return;
+  if (last_event_at != wrong_record) throw ClockBehind(complaints.front(), last_event_at);
+  // From now on this is the last record.
+  records.record_event({.kind = "recovery",
+                        .state = to_string(JobState::preflight),
+                        .text = "the clock is right, as was acknowledged: the record of " +
+                                wrong_record + " before this one was written by a wrong one",
+                        .at = utc_text(clock)});
+}
+
 }  // namespace
 
 void check_stage(const JobSettings& settings, const bridge::StageIdentity& stage) {
@@ -22,18 +35,18 @@ void check_stage(const JobSettings& settings, const bridge::StageIdentity& stage
 }
 
 PreflightFindings inspect(const JobSettings& settings, bridge::Camera& camera,
-                          const Surroundings& surroundings) {
+                          const Surroundings& surroundings, const std::string& wrong_record) {
   PreflightFindings findings;
   camera.apply(settings.camera.settings);
   findings.camera = camera.describe();
   refuse(camera_complaints(settings, findings.camera));
-  refuse(clock_complaints(surroundings.wall_clock(), ""));
   findings.records =
       std::make_shared<SampleRecords>(settings.plan, settings.store, findings.camera, surroundings);
   findings.journal = findings.records->summary();
   findings.disk_left_layers = findings.records->disk_left_layers();
 
-  refuse(clock_complaints(surroundings.wall_clock(), findings.journal.last_event_at));
+  check_clock(*findings.records, findings.journal.last_event_at, surroundings.wall_clock(),
+              wrong_record);
   findings.records->hold_constant(constants_of(settings.camera.settings, findings.camera));
   if (!findings.camera.correction.empty()) {
     findings.records->record_event({.kind = "recovery",

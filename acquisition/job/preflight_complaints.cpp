@@ -130,8 +130,9 @@ Complaints clock_complaints(std::chrono::system_clock::time_point now,
   // Both are ISO 8601 in UTC: the order of the texts is the order of the times.
   if (!last_event_at.empty() && utc_text(now + kClockTolerance) < last_event_at) {
     complaints.push_back("the computer's clock says " + utc_text(now) +
-                         " and the journal has a record of " + last_event_at +
-                         ": set the clock before going on");
+                         " and the journal's last record is of " + last_event_at +
+                         ", which lies ahead: if the clock is wrong, set it; if it is right, the "
+                         "record is wrong: acknowledge the alarm that says so, and resume");
   }
   return complaints;
 }

@@ -122,7 +122,7 @@ struct JournalSummary {
   std::uint32_t last_sequence = 0;
   std::uint64_t last_layer_bytes = 0;
   int flagged_in_a_row = 0;   ///< layers up to the last committed one
-  std::string last_event_at;  ///< ISO 8601, UTC; empty if none
+  std::string last_event_at;  ///< of a job, not of a daemon's start; ISO 8601, UTC; empty if none
   std::optional<GrindRow> last_grind;
   std::optional<FocusRow> last_focus;  ///< the last that was found; without its points
   std::vector<Constant> constants;     ///< by their names; none in journals of older daemons

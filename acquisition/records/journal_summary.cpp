@@ -50,8 +50,12 @@ JournalSummary summary_of(SQLite::Database& database, const std::filesystem::pat
                                               bridge::to_string(bridge::CommandResult::done)};
   }
 
+  // A daemon that takes over a job writes that it is latched, by a clock that may not be set yet.
   summary.last_event_at =
-      database.execAndGet("SELECT coalesce((SELECT at FROM events ORDER BY id DESC LIMIT 1), '')")
+      database
+          .execAndGet(
+              "SELECT coalesce((SELECT at FROM events WHERE NOT (kind = 'state' AND "
+              "state = 'faulted') ORDER BY id DESC LIMIT 1), '')")
           .getString();
 
   SQLite::Statement focus(database,

@@ -5,6 +5,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "acquisition/records/utc_time.hpp"
 #include "reconstruct/errors.hpp"
 
 namespace biotomy::tests {
@@ -57,11 +58,12 @@ JobBench::JobBench() {
 
 void JobBench::start_daemon() {
   job.reset();
-  job = std::make_unique<Job>(settings,
-                              JobParts{stage, lines, watched_camera, *job_worker, volume_worker,
-                                       event_worker, desk, board, plain_camera, &watched_camera},
-                              surroundings,
-                              take_over_earlier_run(settings.plan.sample, "2026-11-01T00:00:00Z"));
+  job = std::make_unique<Job>(
+      settings,
+      JobParts{stage, lines, watched_camera, *job_worker, volume_worker, event_worker, desk, board,
+               plain_camera, &watched_camera},
+      surroundings,
+      take_over_earlier_run(settings.plan.sample, utc_text(surroundings.wall_clock())));
   tick();
 }
 

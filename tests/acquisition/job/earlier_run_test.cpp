@@ -125,6 +125,19 @@ TEST_F(CrashedDaemon, GoesOnByItselfWhenConfiguredSo) {
   EXPECT_THAT(bench.events_of_kind("operator"), HasSubstr("goes on by itself after a restart"));
 }
 
+// After the power was back, before the network is: the daemon has written down its start by then.
+TEST_F(CrashedDaemon, GoesOnByItselfOnceTheClockIsSet) {
+  const auto right = bench.wall_clock_start;
+  bench.wall_clock_start -= std::chrono::hours(1);
+  bench.start_daemon();
+  ASSERT_TRUE(bench.reach(JobState::preflight)) << bench.alarm();
+  bench.tick(1000);
+  EXPECT_EQ(bench.state(), JobState::preflight) << bench.alarm();
+  EXPECT_THAT(bench.board.look()->waiting_for, HasSubstr("waits for the computer's clock"));
+  bench.wall_clock_start = right;
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
 // Nobody is to be overruled by the next daemon's start: neither a person who has looked ...
 TEST_F(CrashedDaemon, DoesNotGoOnAfterAPersonHasAcknowledged) {
   bench.start_daemon();

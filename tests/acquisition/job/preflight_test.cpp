@@ -1,10 +1,13 @@
 #include "acquisition/job/preflight.hpp"
 
+#include <filesystem>
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "acquisition/job/job.hpp"
-#include "tests/acquisition/job_bench.hpp"
+#include "tests/acquisition/held_job_bench.hpp"
 
 namespace biotomy::tests {
 namespace {
@@ -96,19 +99,95 @@ TEST(Preflight, RefusesADiskWithoutRoomForTheWholeJob) {
 
 TEST(Preflight, RefusesAComputerWhoseClockIsNotSet) {
   JobBench bench;
+  bench.settings.limits.preflight_limit = std::chrono::seconds(2);
   bench.wall_clock_start = std::chrono::system_clock::time_point{};
   expect_refusal(bench, "the computer's clock says 1970-01-01");
 }
 
-TEST(Preflight, RefusesAClockThatIsBehindTheJournal) {
+TEST(Preflight, WaitsUntilTheClockIsSet) {
   JobBench bench;
+  const auto right = std::exchange(bench.wall_clock_start, {});
   bench.start_job();
-  ASSERT_TRUE(bench.reach(JobState::clearing));
-  bench.wall_clock_start -= std::chrono::days(30);
-  bench.start_daemon();
+  bench.tick(2900);  // 58 s of the minute that a preflight may take
+  EXPECT_EQ(bench.state(), JobState::preflight) << bench.alarm();
+  EXPECT_THAT(bench.board.look()->waiting_for,
+              HasSubstr("waits for the computer's clock to be set: it says 1970-01-01"));
+  EXPECT_FALSE(std::filesystem::exists(bench.settings.plan.sample));
+  bench.wall_clock_start = right;
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
+/// A job that was paused, and a daemon that starts by a clock that is behind what the journal says.
+struct BehindTheJournal : JobBench {
+  std::chrono::system_clock::time_point right = wall_clock_start;
+  std::size_t ground = 0;  ///< passes until then
+
+  BehindTheJournal() {
+    settings.limits.preflight_limit = std::chrono::seconds(2);
+    start_daemon();
+    start_job();
+    reach_committed(1);
+    say(OperatorCommand::pause);
+    reach(JobState::paused);
+    ground = stage.ground().size();
+    wall_clock_start -= std::chrono::days(30);
+    start_daemon();
+  }
+};
+
+TEST(Preflight, WaitsForAClockThatIsBehindTheJournal) {
+  BehindTheJournal bench;
+  bench.start_job();
+  bench.tick(90);
+  EXPECT_EQ(bench.state(), JobState::preflight) << bench.alarm();
+  EXPECT_THAT(bench.board.look()->waiting_for,
+              HasSubstr("and the journal's last record is of 2026-11-01"));
+  bench.wall_clock_start = bench.right;
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+}
+
+TEST(Preflight, GoesOnByAClockThatWasBehindTheJournalWhenThatIsAcknowledged) {
+  BehindTheJournal bench;
   bench.start_job();
   ASSERT_TRUE(bench.reach(JobState::faulted));
-  EXPECT_THAT(bench.alarm(), HasSubstr("set the clock before going on"));
+  EXPECT_EQ(bench.board.look()->alarm->kind, AlarmKind::preflight);
+  EXPECT_THAT(bench.alarm(), HasSubstr("the journal's last record is of 2026-11-01"));
+  EXPECT_THAT(bench.alarm(), HasSubstr("if it is right, the record is wrong: acknowledge"));
+  EXPECT_EQ(bench.stage.ground().size(), bench.ground);
+
+  bench.tick(20);
+  ASSERT_TRUE(bench.say(OperatorCommand::acknowledge).accepted);
+  ASSERT_TRUE(bench.say(OperatorCommand::resume).accepted);
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("events", "text LIKE 'the clock is right, as was acknowledged%'"), 1);
+  bench.start_daemon();
+  bench.start_job();
+  EXPECT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("events", "text LIKE 'the clock is right, as was acknowledged%'"), 1);
+}
+
+TEST(Preflight, TakesAnAbortForNoWordOnTheClock) {
+  BehindTheJournal bench;
+  bench.start_job();
+  bench.tick(20);
+  ASSERT_TRUE(bench.say(OperatorCommand::abort).accepted);
+  ASSERT_TRUE(bench.reach(JobState::aborted)) << bench.alarm();
+  ASSERT_TRUE(bench.say(OperatorCommand::start).accepted);
+  EXPECT_TRUE(bench.reach(JobState::faulted));
+  EXPECT_EQ(bench.stage.ground().size(), bench.ground);
+}
+
+TEST(Preflight, GivesTheRestOfTheChecksTheirTimeAfterTheClock) {
+  HeldJobBench bench;
+  bench.settings.limits.preflight_limit = std::chrono::seconds(2);
+  const auto right = std::exchange(bench.wall_clock_start, {});
+  bench.start_daemon();
+  bench.start_job();
+  bench.tick(90);
+  bench.wall_clock_start = right;
+  bench.tick(90);
+  EXPECT_EQ(bench.state(), JobState::preflight) << bench.alarm();
+  EXPECT_TRUE(bench.reach(JobState::grinding)) << bench.alarm();
 }
 
 TEST(Preflight, WritesDownThatItTookATrialFrame) {

@@ -237,7 +237,7 @@ TEST_F(RigCheck, SaysWhatDoesNotAgreeWithTheSample) {
   EXPECT_THAT(findings.all(), Contains(wrong("sample", "camera.red_gain = 1")));
   EXPECT_THAT(findings.all(), Contains(wrong("sample", "the job would make")));
   EXPECT_THAT(findings.all(), Contains(wrong("sample", "disagrees with the controller")));
-  EXPECT_THAT(findings.all(), Contains(wrong("clock", "the journal has a record of")));
+  EXPECT_THAT(findings.all(), Contains(wrong("clock", "the journal's last record is of")));
 }
 
 TEST_F(RigCheck, SaysThatTheFolderAroundTheSampleIsMissing) {
