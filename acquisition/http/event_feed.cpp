@@ -15,9 +15,14 @@ EventText shared(std::string text) {
 
 }  // namespace
 
-EventText event_text(const std::string& name, const std::string& json, std::int64_t id) {
-  const std::string number = id > 0 ? "id: " + std::to_string(id) + "\n" : "";
+EventText event_text(const std::string& name, const std::string& json,
+                     std::optional<std::int64_t> id) {
+  const std::string number = id ? "id: " + std::to_string(*id) + "\n" : "";
   return shared(number + "event: " + name + "\ndata: " + json + "\n\n");
+}
+
+EventText place_text(std::int64_t id) {
+  return shared("id: " + std::to_string(id) + "\n\n");
 }
 
 std::vector<EventText> EventSubscription::take() {
@@ -58,7 +63,7 @@ void EventSubscription::put(const std::string& key, const EventText& text) {
   woken(was_empty);
 }
 
-void EventSubscription::put_each(const EventText& text) {
+void EventSubscription::put_each(std::int64_t id, const EventText& text) {
   const std::scoped_lock lock(mutex_);
   const bool was_empty = waiting_.empty();
   if (numbered_ < kMostNumbered) {
@@ -66,7 +71,7 @@ void EventSubscription::put_each(const EventText& text) {
     ++numbered_;
   } else {
     std::erase_if(waiting_, [](const Waiting& entry) { return entry.key.empty(); });
-    waiting_.push_back({.key = {}, .text = event_text("reload", "{}")});
+    waiting_.push_back({.key = {}, .text = event_text("reload", "{}", id)});
     numbered_ = 1;
   }
   woken(was_empty);
@@ -87,7 +92,7 @@ void EventFeed::tell_state(const std::string& key, const std::string& name, cons
 void EventFeed::tell(std::int64_t id, const EventText& text) {
   const std::scoped_lock lock(mutex_);
   last_id_ = id;
-  to_each([&](EventSubscription& listener) { listener.put_each(text); });
+  to_each([&](EventSubscription& listener) { listener.put_each(id, text); });
 }
 
 void EventFeed::begin_after(std::int64_t id) {

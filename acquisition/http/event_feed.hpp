@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,17 @@ namespace biotomy::acquisition {
 /// A server-sent event as it is written; all who hear it share it.
 using EventText = std::shared_ptr<const std::string>;
 
-/// "event: …", "data: …" and, above zero, "id: …"; `json` is one line.
-EventText event_text(const std::string& name, const std::string& json, std::int64_t id = 0);
+/// "event: …", "data: …" and, where it has one, "id: …"; `json` is one line.
+EventText event_text(const std::string& name, const std::string& json,
+                     std::optional<std::int64_t> id = {});
+
+/// Says nothing but after which numbered event a listener goes on: whoever hears no other before
+/// the connection is lost asks for those after it.
+EventText place_text(std::int64_t id);
 
 /// What one listener has not heard yet: of a state only the latest, of numbered events each, but no
-/// more than a thousand; who misses more is told `reload` instead. Safe for many threads.
+/// more than a thousand; who misses more is told `reload` instead, with the id of the last one that
+/// it stands for. Safe for many threads.
 class EventSubscription {
  public:
   /// What waits, in order; nothing afterwards.
@@ -42,7 +49,7 @@ class EventSubscription {
     EventText text;
   };
   void put(const std::string& key, const EventText& text);
-  void put_each(const EventText& text);
+  void put_each(std::int64_t id, const EventText& text);
   void woken(bool was_empty) const;
 
   mutable std::mutex mutex_;

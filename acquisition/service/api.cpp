@@ -112,18 +112,17 @@ ApiResponse Api::events(const ApiRequest& request) const {
     heard = id;
   }
   auto subscription = parts_.feed.subscribe();
-  if (heard) {
-    std::vector<EventText> texts;
-    if (const auto missed = missed_attempts(parts_.journal, *heard, subscription->begins_after())) {
-      for (const AttemptNote& attempt : *missed) {
-        texts.push_back(attempt_event(attempt));
-      }
-    } else {
-      texts.push_back(event_text("reload", "{}"));
-    }
-    subscription->catch_up(texts);
-  }
+  subscription->catch_up(before(subscription->begins_after(), heard));
   return event_response(std::move(subscription));
+}
+
+std::vector<EventText> Api::before(std::int64_t begin, std::optional<std::int64_t> heard) const {
+  if (!heard) return {place_text(begin)};
+  const auto missed = missed_attempts(parts_.journal, *heard, begin);
+  if (!missed) return {event_text("reload", "{}", begin)};
+  std::vector<EventText> texts;
+  for (const AttemptNote& attempt : *missed) texts.push_back(attempt_event(attempt));
+  return texts;
 }
 
 ApiResponse Api::control(const std::string& name, const ApiRequest& request) const {

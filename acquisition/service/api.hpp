@@ -1,9 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "acquisition/http/event_feed.hpp"
 #include "acquisition/http/http_application.hpp"
@@ -42,6 +45,9 @@ class Api : public HttpApplication {
   ApiResponse sample(const ApiRequest& request) const;
   ApiResponse read(const ApiRequest& request) const;
   ApiResponse events(const ApiRequest& request) const;
+  /// What a stream that begins after the attempt `begin` starts with, for who heard those up to
+  /// `heard`, or none.
+  std::vector<EventText> before(std::int64_t begin, std::optional<std::int64_t> heard) const;
   ApiResponse control(const std::string& name, const ApiRequest& request) const;
 
   ApiParts parts_;

@@ -20,6 +20,7 @@ TEST(EventFeed, WritesEventsAsBrowsersReadThem) {
   EXPECT_EQ(*event_text("attempt", R"({"layer":1})", 7),
             "id: 7\nevent: attempt\ndata: {\"layer\":1}\n\n");
   EXPECT_EQ(*event_text("status", "{}"), "event: status\ndata: {}\n\n");
+  EXPECT_EQ(*place_text(0), "id: 0\n\n");
 }
 
 TEST(EventFeed, TellsStatesAtOnceToWhoeverComes) {
@@ -57,7 +58,7 @@ TEST(EventFeed, TellsWhoFellFarBehindToLoadAnew) {
   const std::vector<std::string> texts = heard(*listener);
   EXPECT_LE(texts.size(), 1001U);
   EXPECT_EQ(texts.at(0), "event: status\ndata: {}\n\n");
-  EXPECT_EQ(texts.at(1), "event: reload\ndata: {}\n\n");
+  EXPECT_EQ(texts.at(1), "id: 4001\nevent: reload\ndata: {}\n\n");
   EXPECT_EQ(texts.back(), "id: 5000\nevent: attempt\ndata: {}\n\n");
 }
 

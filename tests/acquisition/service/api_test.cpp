@@ -178,9 +178,18 @@ TEST_F(ApiTest, TellsFirstWhatAListenerMissed) {
 
   // Of another journal, or of one that was begun anew.
   const ApiResponse stranger = get("/api/v1/events", "900");
-  EXPECT_THAT(stranger.events->take(),
-              testing::ElementsAre(testing::Pointee(std::string("event: reload\ndata: {}\n\n"))));
+  EXPECT_THAT(
+      stranger.events->take(),
+      testing::ElementsAre(testing::Pointee(std::string("id: 5\nevent: reload\ndata: {}\n\n"))));
   EXPECT_EQ(get("/api/v1/events", "x").status, 400);
+}
+
+TEST_F(ApiTest, TellsWhereTheStreamBeginsBeforeThereIsAnAttempt) {
+  feed.begin_after(4);
+  feed.tell_state("status", "status", "{}");
+  const std::vector<EventText> heard = get("/api/v1/events").events->take();
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(*heard[0], "id: 4\n\n");
 }
 
 TEST_F(ApiTest, KnowsWhatThereIsAndHowItIsAsked) {

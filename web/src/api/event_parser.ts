@@ -20,11 +20,6 @@ export class EventParser {
     this.id = lastId;
   }
 
-  /** What comes without an id of its own has none from now on. */
-  forget(): void {
-    this.id = "";
-  }
-
   push(text: string): StreamEvent[] {
     const events: StreamEvent[] = [];
     this.rest += text;

@@ -33,7 +33,6 @@ export class EventStream {
   private lastId = "";
   private failures = 0;
   private connection: AbortController | null = null;
-  private parser: EventParser | null = null;
   private retry: number | undefined;
   private closed = true;
 
@@ -65,12 +64,6 @@ export class EventStream {
     void this.connect();
   }
 
-  /** Forgets what came: the next connection begins with what is, not with what was missed. */
-  forget(): void {
-    this.lastId = "";
-    this.parser?.forget();
-  }
-
   private async connect(): Promise<void> {
     const connection = new AbortController();
     this.connection = connection;
@@ -95,7 +88,7 @@ export class EventStream {
       this.heardAt = Date.now();
       this.failures = 0;
       this.listener.live();
-      const parser = (this.parser = new EventParser(this.lastId));
+      const parser = new EventParser(this.lastId);
       const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
       for (;;) {
         const { done, value } = await reader.read();

@@ -75,7 +75,6 @@ export function takeEvent(event: StreamEvent): void {
       exports.tell(value as ExportJob);
       break;
     case "reload":
-      stream.forget();
       gaps.tell();
       break;
   }

@@ -99,6 +99,18 @@ describe("what is known at present", () => {
     expect(services).toBe(2); // it may be another server by now
   });
 
+  it("is caught up with from where it was loaded anew", async () => {
+    write('id: 7\nevent: attempt\ndata: {"id":7}\n\n');
+    write("id: 9\nevent: reload\ndata: {}\n\n");
+    write('event: status\ndata: {"state":"grinding"}\n\n');
+    await settle();
+    hideBehindAnother();
+    await settle();
+    tab.show(true);
+    await settle();
+    expect(streams.map(({ lastId }) => lastId)).toEqual([null, "9"]);
+  });
+
   it("is told to be old when one looks again and the server is silent", async () => {
     hideBehindAnother();
     await settle();
