@@ -19,6 +19,9 @@ constexpr const char* kPolicy =
     "worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 constexpr const char* kPreflightAge = "600";  // seconds
 constexpr std::size_t kLongestName = 253;     // of the DNS
+constexpr const char* kForeign =
+    "another site's page may not ask this; if it is this rig's own page, behind a proxy, the proxy "
+    "must pass on the Host that it was asked under";
 
 bool is_address(const std::string& name) {
   std::array<unsigned char, sizeof(in6_addr)> address{};
@@ -105,7 +108,7 @@ std::optional<ApiResponse> RequestGuard::answer(const ApiRequest& request) const
   if (!request.origin.empty() && !is_own_origin(request)) {
     // Some browsers hide the origin even from the page's own server; they still say whose it is.
     const bool hidden = request.origin == "null" && request.sec_fetch_site == "same-origin";
-    if (!hidden) return error_response(403, "another site's page may not ask this");
+    if (!hidden) return error_response(403, kForeign);
   }
   const bool foreign =
       request.sec_fetch_site == "cross-site" || request.sec_fetch_site == "same-site";
@@ -113,7 +116,7 @@ std::optional<ApiResponse> RequestGuard::answer(const ApiRequest& request) const
   const bool followed_link =
       request.method == "GET" && request.path == "/" && request.sec_fetch_mode == "navigate";
   if (foreign && !followed_link) {
-    return error_response(403, "another site's page may not ask this");
+    return error_response(403, kForeign);
   }
   return std::nullopt;
 }

@@ -43,7 +43,11 @@ ApiResponse refusal(const Ruling& ruling) {
     return later_response(ruling.status, ruling.sentence, ruling.retry_after);
   }
   ApiResponse response = error_response(ruling.status, ruling.sentence);
+  // What another token would change: a page is to ask for one then, and after no other refusal.
   if (ruling.status == 401) response.headers["WWW-Authenticate"] = "Bearer";
+  if (ruling.status == 403) {
+    response.headers["WWW-Authenticate"] = R"(Bearer error="invalid_token")";
+  }
   return response;
 }
 

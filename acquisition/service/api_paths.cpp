@@ -9,7 +9,10 @@ ApiResponse json_response(std::string body) {
 }
 
 ApiResponse event_response(std::shared_ptr<EventSubscription> subscription) {
-  return {.content_type = "text/event-stream", .events = std::move(subscription)};
+  // A proxy that gathers events until there are many would hold back the news.
+  return {.content_type = "text/event-stream",
+          .headers = {{"X-Accel-Buffering", "no"}},
+          .events = std::move(subscription)};
 }
 
 }  // namespace biotomy::acquisition

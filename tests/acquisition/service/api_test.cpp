@@ -169,6 +169,7 @@ TEST_F(ApiTest, TellsFirstWhatAListenerMissed) {
   const ApiResponse response = get("/api/v1/events", "2");
   ASSERT_TRUE(response.events);
   EXPECT_EQ(response.content_type, "text/event-stream");
+  EXPECT_EQ(response.headers.at("X-Accel-Buffering"), "no");
   feed.tell(5, event_text("attempt", "{}", 5));
   const std::vector<EventText> heard = response.events->take();
   ASSERT_EQ(heard.size(), 3U);
@@ -208,6 +209,8 @@ TEST_F(ApiTest, TakesNoCommandWithoutTheToken) {
   EXPECT_EQ(post(path, "").status, 401);
   EXPECT_EQ(post(path, "").headers.at("WWW-Authenticate"), "Bearer");
   EXPECT_EQ(post(path, "Bearer wrong").status, 403);
+  EXPECT_EQ(post(path, "Bearer wrong").headers.at("WWW-Authenticate"),
+            R"(Bearer error="invalid_token")");
   EXPECT_TRUE(desk.take().empty());
 }
 

@@ -88,24 +88,26 @@ export async function request(path: string, options: RequestOptions = {}): Promi
   if (needsToken(isReading) && path !== servicePath) await tokenOr401(whyNeeded, !isReading);
   const withToken = token();
   let response = await send(path, options);
-  if (lacksToken(response, withToken)) {
+  if (lacksToken(response)) {
     // Another request may have been given a token meanwhile.
     if (token() === withToken) {
       setToken("");
       const error = await errorOf(response);
       await tokenOr401(withToken ? whyAgain : whyNeeded, !isReading, error);
     }
-    const second = token();
     response = await send(path, options);
-    if (lacksToken(response, second)) setToken("");
+    if (lacksToken(response)) setToken("");
   }
   if (!response.ok) throw await errorOf(response);
   return response;
 }
 
-/** Without a token the answer is 401, with a wrong one 403. */
-const lacksToken = ({ status }: Response, sent: string): boolean =>
-  status === 401 || (status === 403 && sent !== "");
+/**
+ * Without a token the answer is 401, with a wrong one 403 that asks for another. Of any other 403 no
+ * token is the cause.
+ */
+const lacksToken = ({ status, headers }: Response): boolean =>
+  status === 401 || (status === 403 && headers.has("WWW-Authenticate"));
 
 /** Throws when the person gives none. */
 async function tokenOr401(

@@ -96,7 +96,8 @@ describe("requests", () => {
 
   it.each([401, 403])("forget a token that is answered %i", async (status) => {
     setToken("wrong");
-    fetched.mockImplementation(async () => refused(status, "no"));
+    const asking = { "WWW-Authenticate": 'Bearer error="invalid_token"' };
+    fetched.mockImplementation(async () => refused(status, "no", asking));
     const answer = getJson("/a").catch((reason: unknown) => reason);
     await settle();
     expect(tokenQuestion.value?.why).toContain("not accepted");
@@ -107,11 +108,15 @@ describe("requests", () => {
 });
 
 describe("a refusal that no token would change", () => {
-  it("is told as it is", async () => {
-    setToken("");
+  it.each(["", "right"])("is told as it is, and takes no token away (%j)", async (held) => {
+    setToken(held);
     vi.stubGlobal("fetch", async () => refused(403, "not from there"));
-    await expect(getJson("/x")).rejects.toMatchObject({ status: 403, message: "not from there" });
+    const answer = postJson("/x").catch((reason: unknown) => reason);
+    await settle();
     expect(tokenQuestion.value).toBeNull();
+    expect(await answer).toMatchObject({ status: 403, message: "not from there" });
+    expect(token()).toBe(held);
+    setToken("");
     vi.unstubAllGlobals();
   });
 });
