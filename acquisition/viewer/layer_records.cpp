@@ -228,9 +228,7 @@ ApiResponse LayerRecords::rejected_picture(const std::string& name,
   if (!is_kept(sample, std::string(kRejected) + name)) {
     throw Refusal(404, "the picture of that frame is not kept any more: only the newest are");
   }
-  ApiResponse response = file_response(request, sample.rejected_path() / name, "image/jpeg");
-  response.headers["Cache-Control"] = "private, max-age=3600";
-  return response;
+  return file_response(request, sample.rejected_path() / name, "image/jpeg");
 }
 
 ApiResponse LayerRecords::history(const ApiRequest& request) const {

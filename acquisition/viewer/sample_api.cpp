@@ -216,11 +216,12 @@ std::uint64_t SampleApi::generation() const {
 }
 
 std::string SampleApi::sample_event() const {
-  nlohmann::ordered_json event = {{"committed", 0}, {"layers_present", 0}};
+  nlohmann::ordered_json event = {{"committed", 0}, {"layers_present", 0}, {"created", nullptr}};
   try {
     const auto view = state_->live.look();
     event = {{"committed", state_->records.committed()},
-             {"layers_present", view->sample.tail.layers_present()}};
+             {"layers_present", view->sample.tail.layers_present()},
+             {"created", view->sample.folder.description().created}};
   } catch (const std::exception&) {
     // There is no sample yet, or none that can be read: whoever asks for it is told.
   }

@@ -38,7 +38,7 @@ class SampleApi {
   /// times each time that it is asked.
   std::uint64_t generation() const;
 
-  /// {"committed", "layers_present", "generation"}: the event `sample`.
+  /// {"committed", "layers_present", "created", "generation"}: the event `sample`.
   std::string sample_event() const;
 
   /// Is told of every export that changed, as its JSON in one line, from the exports' own thread.

@@ -172,8 +172,10 @@ TEST_F(SectionPicturesOfASample, AreOfASampleThatIsDescribed) {
   EXPECT_GT(grown.at("generation"), empty.at("generation"));
   EXPECT_EQ(grown.at("generation"), api_.generation());
   EXPECT_EQ(nlohmann::json::parse(api_.sample_event()),
-            (nlohmann::json{
-                {"committed", 3}, {"layers_present", 3}, {"generation", grown.at("generation")}}));
+            (nlohmann::json{{"committed", 3},
+                            {"layers_present", 3},
+                            {"created", grown.at("created")},
+                            {"generation", grown.at("generation")}}));
 }
 
 }  // namespace

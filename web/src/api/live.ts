@@ -69,7 +69,7 @@ export function takeEvent(event: StreamEvent): void {
       attempts.tell(value as Attempt);
       break;
     case "sample":
-      sampleProgress.value = value as SampleProgress;
+      takeProgress(value as SampleProgress);
       break;
     case "export":
       exports.tell(value as ExportJob);
@@ -78,6 +78,20 @@ export function takeEvent(event: StreamEvent): void {
       gaps.tell();
       break;
   }
+}
+
+/** When the sample was begun of which something may be shown. */
+let begunAt: string | null = null;
+
+/** Another sample may have the same name: what is shown is not of that one. */
+function takeProgress(progress: SampleProgress): void {
+  const { created } = progress;
+  if (created && begunAt && created !== begunAt) {
+    location.reload();
+    return;
+  }
+  begunAt = created ?? begunAt;
+  sampleProgress.value = progress;
 }
 
 const changed = (state: Connection["state"], why = "", retryAt = 0): void => {

@@ -200,6 +200,7 @@ export interface Sample {
 export interface SampleProgress {
   committed: number;
   layers_present: number;
+  created: string | null; // when it was begun: another of the same name was begun at another time
   generation: number;
 }
 

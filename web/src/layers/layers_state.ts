@@ -47,7 +47,6 @@ const retryMs = 3000;
 export function watchLayers(): () => void {
   const askHistory = asking(learnHistory, historyTrouble);
   const askSample = asking(learnSample, sampleTrouble);
-  let name = service.peek()?.sample;
   const stops = [
     onAttempt((attempt) => {
       marks.value = marksWith(marks.value, [attempt]);
@@ -55,14 +54,6 @@ export function watchLayers(): () => void {
     onGap(askHistory.now),
     effect(() => {
       if (begun.value) askHistory.now();
-    }),
-    effect(() => {
-      const now = service.value?.sample;
-      if (name !== undefined && now !== undefined && now !== name) {
-        forget();
-        if (begun.peek()) askHistory.now();
-      }
-      name = now ?? name;
     }),
     effect(() => {
       void sampleProgress.value; // what was not there may be there now
@@ -112,12 +103,6 @@ function asking(ask: (signal: AbortSignal) => Promise<void>, trouble: Signal<str
     clearTimeout(retry);
   };
   return { now, end };
-}
-
-function forget(): void {
-  sample.value = null;
-  marks.value = noMarks;
-  historyEnd = 0;
 }
 
 async function learnSample(signal: AbortSignal): Promise<void> {

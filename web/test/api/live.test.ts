@@ -111,6 +111,23 @@ describe("what is known at present", () => {
     expect(streams.map(({ lastId }) => lastId)).toEqual([null, "9"]);
   });
 
+  it("is of one sample: another of the same name loads the page anew", async () => {
+    const reload = vi.spyOn(location, "reload").mockImplementation(() => undefined);
+    const tell = async (created: string | null, committed: number) => {
+      const progress = { committed, layers_present: committed, created, generation: 1 };
+      write(`event: sample\ndata: ${JSON.stringify(progress)}\n\n`);
+      await settle();
+    };
+    await tell(null, 0);
+    await tell("2026-11-01T18:00:00Z", 1);
+    await tell("2026-11-01T18:00:00Z", 2);
+    await tell(null, 0); // it was taken away
+    expect(reload).not.toHaveBeenCalled();
+    await tell("2026-11-02T18:00:00Z", 1);
+    expect(reload).toHaveBeenCalledTimes(1);
+    reload.mockRestore();
+  });
+
   it("is told to be old when one looks again and the server is silent", async () => {
     hideBehindAnother();
     await settle();

@@ -36,10 +36,10 @@ afterEach(() => {
 });
 
 it("says that there is nothing yet, and learns of the sample once there is", async () => {
-  sampleProgress.value = { committed: 0, layers_present: 0, generation: 0 };
+  sampleProgress.value = { committed: 0, layers_present: 0, created: null, generation: 0 };
   await open();
   expect(state.failure.value).toMatch(/No layer/);
-  sampleProgress.value = { committed: 1, layers_present: 1, generation: 1 };
+  sampleProgress.value = { committed: 1, layers_present: 1, created: null, generation: 1 };
   await settle();
   expect(state.sample.value?.size).toEqual([10, 10, 10]);
   expect(state.failure.value).toBe("");
@@ -47,7 +47,7 @@ it("says that there is nothing yet, and learns of the sample once there is", asy
 
 it.each([503, 0])("asks again by itself after an answer that will pass (%d)", async (answer) => {
   status = answer;
-  sampleProgress.value = { committed: 1, layers_present: 1, generation: 1 };
+  sampleProgress.value = { committed: 1, layers_present: 1, created: null, generation: 1 };
   await open();
   await settle();
   expect(state.failure.value).not.toBe("");

@@ -47,7 +47,7 @@ afterEach(() => {
 });
 
 const begin = () => {
-  live.sampleProgress.value = { committed: 1, layers_present: 1, generation: 1 };
+  live.sampleProgress.value = { committed: 1, layers_present: 1, created: null, generation: 1 };
   stop = layers.watchLayers();
 };
 const miss = () => live.takeEvent({ name: "reload", data: "{}", id: "" });
