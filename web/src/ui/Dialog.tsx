@@ -49,7 +49,8 @@ export function Dialog({ title, onClose, children, wide = false, withoutNotice }
         onClose();
       }}
       onMouseDown={(event) => {
-        if (event.target === dialog.current) onClose();
+        const shown = dialog.current;
+        if (shown && event.target === shown && isBeside(event, shown)) onClose();
       }}
     >
       <div class="dialog-inside">
@@ -64,4 +65,10 @@ export function Dialog({ title, onClose, children, wide = false, withoutNotice }
       </div>
     </dialog>
   );
+}
+
+/** The dialog's backdrop counts as the dialog itself, and so does its scrollbar. */
+function isBeside({ clientX, clientY }: MouseEvent, dialog: HTMLDialogElement): boolean {
+  const { left, right, top, bottom } = dialog.getBoundingClientRect();
+  return clientX < left || clientX > right || clientY < top || clientY > bottom;
 }
