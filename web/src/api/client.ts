@@ -16,7 +16,7 @@ export class ApiError extends Error {
   }
 }
 
-/** There was no answer. */
+/** There was no answer, or not all of it. */
 export class ConnectionError extends Error {
   constructor() {
     super("The server does not answer.");
@@ -44,23 +44,30 @@ export const sentenceOf = (error: unknown): string =>
 const limitOf = ({ limit_ms }: RequestOptions): AbortSignal | undefined =>
   limit_ms === undefined ? undefined : AbortSignal.timeout(limit_ms);
 
+/** What came; ConnectionError where nothing did, or it broke off. Given up, it throws the AbortError. */
+async function arrived<T>(coming: Promise<T>): Promise<T> {
+  try {
+    return await coming;
+  } catch (error) {
+    if (isAbort(error)) throw error;
+    throw new ConnectionError();
+  }
+}
+
 async function send(path: string, options: RequestOptions): Promise<Response> {
   const headers: Record<string, string> = { ...options.headers };
   if (token()) headers.Authorization = `Bearer ${token()}`;
   if (options.body !== undefined) headers["Content-Type"] = "application/json";
-  try {
-    return await fetch(path, {
+  return arrived(
+    fetch(path, {
       method: options.method ?? "GET",
       headers,
       body: options.body === undefined ? undefined : JSON.stringify(options.body),
       signal: options.signal ?? limitOf(options),
       credentials: "omit",
       redirect: "error",
-    });
-  } catch (error) {
-    if (isAbort(error)) throw error;
-    throw new ConnectionError();
-  }
+    }),
+  );
 }
 
 /** The error that a response tells of. */
@@ -118,8 +125,12 @@ async function tokenOr401(
   if ((await askForToken(why, insist)) === null) throw error;
 }
 
+const jsonOf = <T>(response: Response): Promise<T> => arrived(response.json() as Promise<T>);
+
+export const blobOf = (response: Response): Promise<Blob> => arrived(response.blob());
+
 export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T> {
-  return (await (await request(path, { signal })).json()) as T;
+  return jsonOf(await request(path, { signal }));
 }
 
 /** What is asked for is only begun before the answer comes: a long silence is none. */
@@ -127,7 +138,7 @@ export const longestAnswer_ms = 20_000;
 
 export async function postJson<T>(path: string, body?: unknown): Promise<T> {
   const limit_ms = longestAnswer_ms;
-  return (await (await request(path, { method: "POST", body, limit_ms })).json()) as T;
+  return jsonOf(await request(path, { method: "POST", body, limit_ms }));
 }
 
 /** Answers may be empty: what they say is not looked at. */
@@ -137,7 +148,7 @@ export async function deleteAt(path: string): Promise<void> {
 
 /** A picture or a file, whole. */
 export async function getBlob(path: string, signal?: AbortSignal): Promise<Blob> {
-  return (await request(path, { signal })).blob();
+  return blobOf(await request(path, { signal }));
 }
 
 /** "/path?a=1&b=2" of what is neither undefined nor null. */

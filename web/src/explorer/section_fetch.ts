@@ -1,4 +1,5 @@
-import { ApiError, getJson, request } from "../api/client";
+import { ApiError, blobOf, getJson, request } from "../api/client";
+import { connection } from "../api/live";
 import { retryWaitMs } from "../api/retry_wait";
 import type { SectionRecord } from "./section_record";
 import { queryText } from "./section_query";
@@ -17,7 +18,7 @@ export async function fetchPicture(
   const response = await request(address, { signal });
   const record = JSON.parse(response.headers.get(recordHeader) ?? "null") as SectionRecord | null;
   if (!record) throw new Error(`The answer has no header ${recordHeader}.`);
-  const image = await createImageBitmap(await response.blob(), {
+  const image = await createImageBitmap(await blobOf(response), {
     premultiplyAlpha: "none",
     colorSpaceConversion: "none",
   });
@@ -33,8 +34,10 @@ export const fetchOutline = (query: Query, signal?: AbortSignal): Promise<Sectio
 const usualWait_ms = 500;
 
 /**
- * After how long a busy server wants to be asked again; null for a refusal that stands, and where
- * nobody answers: then it is the connection that has to come back.
+ * After how long to ask again, of a busy server or for an answer that was lost on its way; null for a
+ * refusal that stands, and where nobody answers: then it is the connection that has to come back.
  */
 export const busyWait_ms = (error: unknown): number | null =>
-  error instanceof ApiError ? retryWaitMs(error, usualWait_ms) : null;
+  error instanceof ApiError || connection.peek().state === "live"
+    ? retryWaitMs(error, usualWait_ms)
+    : null;

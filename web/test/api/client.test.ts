@@ -4,6 +4,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import {
   ApiError,
   ConnectionError,
+  getBlob,
   getJson,
   longestAnswer_ms,
   postJson,
@@ -56,6 +57,17 @@ describe("requests", () => {
     await expect(getJson("/x")).rejects.toBeInstanceOf(ConnectionError);
     fetched.mockRejectedValueOnce(new DOMException("stopped", "AbortError"));
     await expect(getJson("/x")).rejects.toMatchObject({ name: "AbortError" });
+  });
+
+  it("throw ConnectionError, too, for an answer that breaks off, and the abort as it is", async () => {
+    const broken = (error: unknown) =>
+      new Response(new ReadableStream({ start: (controller) => controller.error(error) }));
+    fetched.mockImplementation(async () => broken(new TypeError("the connection was reset")));
+    await expect(getJson("/x")).rejects.toBeInstanceOf(ConnectionError);
+    await expect(getBlob("/x")).rejects.toBeInstanceOf(ConnectionError);
+    await expect(postJson("/x")).rejects.toBeInstanceOf(ConnectionError);
+    fetched.mockImplementation(async () => broken(new DOMException("given up", "AbortError")));
+    await expect(getBlob("/x")).rejects.toMatchObject({ name: "AbortError" });
   });
 
   it("that change something do not wait for ever, from when they are sent", async () => {
