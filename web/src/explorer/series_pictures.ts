@@ -21,7 +21,6 @@ export class SeriesPictures {
   private readonly pictures = new Map<number, SectionPicture>();
   private readonly failures = new Map<number, unknown>();
   private readonly flights = new Map<number, AbortController>();
-  private readonly closed = new AbortController();
   private from = 0;
 
   constructor(private readonly options: SeriesPicturesOptions) {}
@@ -62,11 +61,11 @@ export class SeriesPictures {
   }
 
   /** The picture at the screen's resolution, which takes the place of the one there was. */
-  async sharpened(index: number): Promise<SectionPicture> {
-    const picture = await this.options.fetch(index, true, this.closed.signal);
-    if (this.closed.signal.aborted) {
+  async sharpened(index: number, signal: AbortSignal): Promise<SectionPicture> {
+    const picture = await this.options.fetch(index, true, signal);
+    if (signal.aborted) {
       picture.image.close();
-      throw new DOMException("the series was closed", "AbortError");
+      throw new DOMException("nobody rests at the frame any more", "AbortError");
     }
     return picture;
   }
@@ -85,7 +84,6 @@ export class SeriesPictures {
   }
 
   close(): void {
-    this.closed.abort();
     for (const flight of this.flights.values()) flight.abort();
     this.flights.clear();
     for (const picture of this.pictures.values()) picture.image.close();

@@ -36,12 +36,13 @@ export class SeriesPlayer {
   private loading = new AbortController();
   private timer: ReturnType<typeof setTimeout> | undefined;
   private restTimer: ReturnType<typeof setTimeout> | undefined;
+  private rest = new AbortController(); // of the hand, at one frame
 
   constructor(private readonly state: ExplorerState) {}
 
   async play(): Promise<void> {
     if (!(await this.load())) return;
-    clearTimeout(this.restTimer);
+    this.endRest();
     this.forgive();
     if (this.index.value + 1 >= this.frames.value.length) this.index.value = 0;
     this.playing.value = true;
@@ -67,7 +68,7 @@ export class SeriesPlayer {
   /** Back to the plane that was shown before. */
   close(): void {
     clearTimeout(this.timer);
-    clearTimeout(this.restTimer);
+    this.endRest();
     this.loading.abort();
     batch(() => {
       this.playing.value = false;
@@ -196,26 +197,30 @@ export class SeriesPlayer {
     return { ...got, sharp, whole: true };
   }
 
-  private sharpenAtRest(): void {
-    clearTimeout(this.restTimer);
-    this.restTimer = setTimeout(() => void this.sharpen(), rest_ms);
+  private sharpenAtRest(wait_ms = rest_ms): void {
+    this.endRest();
+    const { signal } = (this.rest = new AbortController());
+    this.restTimer = setTimeout(() => void this.sharpen(signal), wait_ms);
   }
 
-  private async sharpen(): Promise<void> {
+  /** The sharp picture of the frame is not waited for any more. */
+  private endRest(): void {
+    clearTimeout(this.restTimer);
+    this.rest.abort();
+  }
+
+  private async sharpen(signal: AbortSignal): Promise<void> {
     const { pictures } = this;
     const index = this.index.value;
-    if (!pictures || this.playing.value || !this.frames.value[index]?.cuts) return;
+    if (!pictures || !this.frames.value[index]?.cuts) return;
     try {
-      const picture = await pictures.sharpened(index);
-      if (this.playing.value || index !== this.index.value) {
-        picture.image.close();
-        return;
-      }
+      const picture = await pictures.sharpened(index, signal);
       this.present(picture, index);
       pictures.put(index, picture);
     } catch (error) {
-      if (isAbort(error) || pictures !== this.pictures) return;
-      if (busyWait_ms(error) !== null) this.sharpenAtRest();
+      if (signal.aborted) return;
+      const wait = busyWait_ms(error);
+      if (wait !== null) this.sharpenAtRest(Math.max(wait, rest_ms));
       else this.failure.value = sentenceOf(error);
     }
   }

@@ -145,6 +145,36 @@ describe("a series that plays", () => {
     expect(player.failure.value).toBe("");
   });
 
+  it("asks a busy server for the sharp frame when it says, not before", async () => {
+    const answer = vi.mocked(fetchPicture).getMockImplementation()!;
+    let sharp = 0;
+    vi.mocked(fetchPicture).mockImplementation((address, signal) => {
+      if (!address.includes("format=png") || ++sharp > 1) return answer(address, signal);
+      return Promise.reject(new ApiError(503, "busy", "too much to do", 2));
+    });
+    await player.scrub(9);
+    await vi.advanceTimersByTimeAsync(1900);
+    expect(sharp).toBe(1);
+    await vi.advanceTimersByTimeAsync(500);
+    expect(sharp).toBe(2);
+    expect(state.frame.value!.picture.sharp).toBe(true);
+  });
+
+  it.each(["scrub", "play"] as const)("gives up the sharp frame at the next %s", async (next) => {
+    const answer = vi.mocked(fetchPicture).getMockImplementation()!;
+    const given: AbortSignal[] = [];
+    vi.mocked(fetchPicture).mockImplementation((address, signal) => {
+      if (!address.includes("format=png")) return answer(address, signal);
+      given.push(signal);
+      return new Promise(() => {});
+    });
+    await player.scrub(9);
+    await vi.advanceTimersByTimeAsync(300);
+    expect(given.map(({ aborted }) => aborted)).toEqual([false]);
+    await player[next](12);
+    expect(given.map(({ aborted }) => aborted)).toEqual([true]);
+  });
+
   it("that was closed before its frames were known does not open after all", async () => {
     let answer = (_: unknown) => {};
     vi.mocked(getJson).mockReturnValue(new Promise((resolve) => (answer = resolve)));
