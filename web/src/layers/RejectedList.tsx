@@ -18,7 +18,7 @@ export function RejectedList() {
   const [count, setCount] = useState<number | null>(null);
   const [trouble, setTrouble] = useState("");
   const [news, setNews] = useState(0);
-  const [before, setBefore] = useState<number | null>(null);
+  const [wish, setWish] = useState<{ before: number } | null>(null); // for older ones
   const thumbnails = useThumbnails(1000);
   void thumbnails.version.value;
 
@@ -41,7 +41,8 @@ export function RejectedList() {
     return () => ended.abort();
   };
   useEffect(() => fetchPage(null), [news]);
-  useEffect(() => (before === null ? undefined : fetchPage(before)), [before]);
+  // By the wish, not by what it is for: after a failure the same may be wished for again.
+  useEffect(() => (wish === null ? undefined : fetchPage(wish.before)), [wish]);
   useEffect(() => {
     thumbnails.want(frames.flatMap((frame) => frame.image ?? []));
   }, [frames]);
@@ -74,7 +75,7 @@ export function RejectedList() {
         ))}
       </ul>
       {last && count !== null && frames.length < count && (
-        <Button onClick={() => setBefore(last.id)}>Show older ones</Button>
+        <Button onClick={() => setWish({ before: last.id })}>Show older ones</Button>
       )}
     </section>
   );

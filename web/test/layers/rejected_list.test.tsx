@@ -48,6 +48,18 @@ it("has the newest frames, and older ones when they are asked for", async () => 
   expect(page.querySelector("button")).toBeNull();
 });
 
+it("asks for older ones again where the answer was lost", async () => {
+  const answering = globalThis.fetch;
+  vi.stubGlobal("fetch", () => Promise.reject(new TypeError("the connection was reset")));
+  await act(() => page.querySelector("button")!.click());
+  await settle();
+  expect(layers()).toHaveLength(50);
+  vi.stubGlobal("fetch", answering);
+  await act(() => page.querySelector("button")!.click());
+  await settle();
+  expect(layers()).toHaveLength(70);
+});
+
 it("goes on to take in what is rejected after older ones were asked for", async () => {
   await act(() => page.querySelector("button")!.click());
   await settle();
