@@ -1,3 +1,5 @@
+import { useState } from "preact/hooks";
+
 interface Props {
   label: string;
   value: number;
@@ -12,8 +14,9 @@ interface Props {
 
 const shown = (value: number, decimals: number): string => String(Number(value.toFixed(decimals)));
 
-/** A number that is taken when it was typed to its end. */
+/** A number that is taken when it was typed to its end; until then what is typed stays as it is. */
 export function NumberField({ label, value, decimals = 3, unit, onChange, ...limits }: Props) {
+  const [draft, setDraft] = useState<string | null>(null);
   return (
     <label class="number-field">
       <span class="number-label">{label}</span>
@@ -21,9 +24,12 @@ export function NumberField({ label, value, decimals = 3, unit, onChange, ...lim
         type="number"
         inputMode="decimal"
         step="any"
-        value={shown(value, decimals)}
+        value={draft ?? shown(value, decimals)}
         {...limits}
+        onInput={(event) => setDraft(event.currentTarget.value)}
+        onBlur={() => setDraft(null)}
         onChange={(event) => {
+          setDraft(null);
           const typed = event.currentTarget.valueAsNumber;
           const taken = Number.isFinite(typed) && onChange(typed) !== false;
           if (!taken) event.currentTarget.value = shown(value, decimals);
