@@ -86,9 +86,17 @@ async function commandOf(state: ExplorerState): Promise<string> {
 }
 
 function NeuroglancerLink({ state }: { state: ExplorerState }) {
+  const words = "Open in neuroglancer";
   const base = service.value?.neuroglancer;
   const sample = state.sample.value;
   if (!base || !sample) return null;
+  if (service.value?.reading === "token") {
+    return (
+      <Button disabled title="Reading needs a token here, and neuroglancer has none">
+        {words}
+      </Button>
+    );
+  }
   return (
     <a
       class="button button-link"
@@ -96,7 +104,7 @@ function NeuroglancerLink({ state }: { state: ExplorerState }) {
       target="_blank"
       rel="noopener noreferrer"
     >
-      Open in neuroglancer
+      {words}
     </a>
   );
 }
