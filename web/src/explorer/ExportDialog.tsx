@@ -131,7 +131,7 @@ export function ExportDialog({ state, player, exports, choice, onClose }: Props)
           </p>
         )}
         <div class="button-row">
-          <Button submit kind="primary" disabled={!order}>
+          <Button submit kind="primary" disabled={!order || exports.ordering.value}>
             Export
           </Button>
         </div>

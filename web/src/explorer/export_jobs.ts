@@ -35,6 +35,8 @@ function further(job: ExportJob, known: ExportJob | undefined): ExportJob {
 export class ExportJobs {
   readonly jobs = signal<ExportJob[]>([]);
   readonly failure = signal("");
+  /** An order is on its way. */
+  readonly ordering = signal(false);
   /** That ended last, until somebody has seen it. */
   readonly news = signal<ExportJob | null>(null);
   readonly underWay = computed(() => this.jobs.value.find(({ state }) => state === "running"));
@@ -59,7 +61,10 @@ export class ExportJobs {
   }
 
   async order(order: ExportOrder): Promise<void> {
+    if (this.ordering.value) return; // a second press is no second order
+    this.ordering.value = true;
     await this.attempt(async () => this.take(await postJson<ExportJob>(path, order)));
+    this.ordering.value = false;
   }
 
   /** Stops it, or forgets it and its files when it has ended. */

@@ -72,6 +72,22 @@ describe("exports", () => {
     stop();
   });
 
+  it("are ordered once, however often that is pressed", async () => {
+    const exports = new ExportJobs();
+    let answer = (_: Response) => {};
+    const fetched = vi.fn(() => new Promise<Response>((resolve) => (answer = resolve)));
+    vi.stubGlobal("fetch", fetched);
+    const ordered = [exports.order(order), exports.order(order)];
+    expect(exports.ordering.value).toBe(true);
+    answer(new Response(JSON.stringify(job("queued", 0))));
+    await Promise.all(ordered);
+    expect(fetched).toHaveBeenCalledTimes(1);
+    expect(exports.ordering.value).toBe(false);
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("no network")));
+    await exports.order(order);
+    expect(exports.ordering.value).toBe(false);
+  });
+
   it("go on with each event", () => {
     const exports = new ExportJobs();
     const stop = exports.watch();
