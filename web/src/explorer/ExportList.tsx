@@ -1,7 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 
-import { sentenceOf } from "../api/client";
 import { service } from "../api/live";
 import type { ExportJob } from "../api/types";
 import { Button } from "../ui/Button";
@@ -9,7 +8,7 @@ import { bytes, fixed } from "../ui/numbers";
 import { timeText } from "../ui/time_text";
 import { askedBy } from "./command_words";
 import { CopyButton } from "./CopyButton";
-import { downloadWithToken, hasEnded } from "./export_jobs";
+import { hasEnded } from "./export_jobs";
 import type { ExportJobs } from "./export_jobs";
 
 interface Props {
@@ -125,15 +124,18 @@ interface DownloadProps {
 }
 
 function Download({ exports, name, bytes: size, url }: DownloadProps) {
-  const words = `Download ${name} (${bytes(size)})`;
+  const file = `${name} (${bytes(size)})`;
   if (service.value?.reading !== "token") {
     return (
       <a class="button button-link" href={url} download={name}>
-        {words}
+        Download {file}
       </a>
     );
   }
-  const fetchIt = () =>
-    downloadWithToken(url, name).catch((error) => (exports.failure.value = sentenceOf(error)));
-  return <Button onClick={() => void fetchIt()}>{words}</Button>;
+  const underWay = exports.downloads.value.has(url);
+  return (
+    <Button disabled={underWay} onClick={() => void exports.download(url, name)}>
+      {underWay ? "Downloading" : "Download"} {file}
+    </Button>
+  );
 }

@@ -1,6 +1,6 @@
 import { computed, signal } from "@preact/signals";
 
-import { deleteAt, getBlob, getJson, postJson, sentenceOf } from "../api/client";
+import { deleteAt, getBlob, getJson, isAbort, postJson, request, sentenceOf } from "../api/client";
 import { onExport, onGap } from "../api/live";
 import type { ExportJob } from "../api/types";
 import type { Query } from "./section_query";
@@ -37,6 +37,8 @@ export class ExportJobs {
   readonly failure = signal("");
   /** An order is on its way. */
   readonly ordering = signal(false);
+  /** The addresses of files that are being fetched by the page itself. */
+  readonly downloads = signal<ReadonlySet<string>>(new Set());
   /** That ended last, until somebody has seen it. */
   readonly news = signal<ExportJob | null>(null);
   readonly underWay = computed(() => this.jobs.value.find(({ state }) => state === "running"));
@@ -77,6 +79,14 @@ export class ExportJobs {
     });
   }
 
+  /** Where reading needs a token, a plain link can't bring it: the file is fetched and handed on. */
+  async download(url: string, name: string): Promise<void> {
+    if (this.downloads.value.has(url)) return;
+    this.downloads.value = new Set([...this.downloads.value, url]);
+    await this.attempt(() => downloadWithToken(url, name));
+    this.downloads.value = new Set([...this.downloads.value].filter((other) => other !== url));
+  }
+
   private take(job: ExportJob): void {
     this.put(
       this.known(job.id)
@@ -103,13 +113,34 @@ export class ExportJobs {
     try {
       await work();
     } catch (error) {
-      this.failure.value = sentenceOf(error);
+      if (!isAbort(error)) this.failure.value = sentenceOf(error);
     }
   }
 }
 
-/** Where reading needs a token, a plain link can't bring it: the file is fetched and handed on. */
-export async function downloadWithToken(url: string, name: string): Promise<void> {
+/** Of browsers that let a page write a file, where it came over https or from their own computer. */
+interface FilePicker {
+  showSaveFilePicker?(options: { suggestedName: string }): Promise<FileSystemFileHandle>;
+}
+
+async function downloadWithToken(url: string, name: string): Promise<void> {
+  const file = await (window as FilePicker).showSaveFilePicker?.({ suggestedName: name });
+  if (file) await writeTo(await file.createWritable(), url);
+  else await hold(url, name);
+}
+
+/** As it comes, whatever its size. */
+async function writeTo(file: WritableStream, url: string): Promise<void> {
+  try {
+    await (await request(url)).body?.pipeTo(file);
+  } catch (error) {
+    await file.abort(); // nothing is left of it on the disk
+    throw error;
+  }
+}
+
+/** In the page's memory, until the browser has it. */
+async function hold(url: string, name: string): Promise<void> {
   const held = URL.createObjectURL(await getBlob(url));
   const link = document.createElement("a");
   link.href = held;

@@ -88,6 +88,25 @@ describe("exports", () => {
     expect(exports.ordering.value).toBe(false);
   });
 
+  it("are written to the disk as they come, where the browser lets the page", async () => {
+    const exports = new ExportJobs();
+    let written = "";
+    const file = new WritableStream<Uint8Array>({
+      write: (piece) => void (written += new TextDecoder().decode(piece)),
+    });
+    const pick = vi.fn(async () => ({ createWritable: async () => file }));
+    vi.stubGlobal("showSaveFilePicker", pick);
+    vi.stubGlobal("fetch", async () => new Response("a picture"));
+    await exports.download("/api/v1/exports/a/files/section.png", "section.png");
+    expect(written).toBe("a picture");
+    expect(pick).toHaveBeenCalledWith({ suggestedName: "section.png" });
+
+    pick.mockRejectedValueOnce(new DOMException("no file was chosen", "AbortError"));
+    await exports.download("/api/v1/exports/a/files/section.png", "section.png");
+    expect(exports.failure.value).toBe("");
+    expect(exports.downloads.value.size).toBe(0);
+  });
+
   it("go on with each event", () => {
     const exports = new ExportJobs();
     const stop = exports.watch();

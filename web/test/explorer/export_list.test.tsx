@@ -3,7 +3,8 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import type { ExportJob } from "../../src/api/types";
+import { service } from "../../src/api/live";
+import type { ExportJob, Service } from "../../src/api/types";
 import { ExportJobs } from "../../src/explorer/export_jobs";
 import { ExportList } from "../../src/explorer/ExportList";
 
@@ -40,6 +41,7 @@ describe("the list of exports", () => {
   });
   afterEach(() => {
     render(null, document.body);
+    service.value = null;
     vi.unstubAllGlobals();
   });
 
@@ -54,6 +56,30 @@ describe("the list of exports", () => {
     await remove(0);
     expect(rows()).toHaveLength(3);
     expect(rows()[0].textContent).toContain("Remove for good");
+  });
+
+  it("fetches a file once where reading needs a token, and says that it is on its way", async () => {
+    const file = {
+      name: "section.png",
+      bytes: 2_000_000,
+      url: "/api/v1/exports/a/files/section.png",
+    };
+    service.value = { reading: "token" } as Service;
+    let answer = (_: Response) => {};
+    const fetched = vi.fn(() => new Promise<Response>((resolve) => (answer = resolve)));
+    vi.stubGlobal("fetch", fetched);
+    await act(() => void (exports.jobs.value = [{ ...aJob("a"), files: [file] }]));
+    const button = () => rows()[0].querySelector("button")!;
+    await act(() => button().click());
+    expect(button().textContent).toMatch(/^Downloading section.png/);
+    await act(() => button().click());
+    expect(fetched).toHaveBeenCalledTimes(1);
+    await act(async () => {
+      answer(new Response("{}", { status: 404 }));
+      await new Promise((resolve) => setTimeout(resolve));
+    });
+    expect(button().textContent).toMatch(/^Download section.png/);
+    expect(exports.failure.value).not.toBe("");
   });
 
   it("keeps the focus in the list when a row is removed", async () => {
