@@ -20,8 +20,16 @@ using nlohmann::json;
 constexpr const char* kExpected =
     ": does not say along which plane it was cut; give the .json, .png or .tif of a section";
 
+bool is_sidecar(const fs::path& file) {
+  return file.extension() == ".json";
+}
+
 std::optional<std::string> record_text(const fs::path& file) {
-  return file.extension() == ".json" ? read_metadata_file(file) : picture_description(file);
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    throw SampleError(file.string() + ": there is no such file: check its name");
+  }
+  return is_sidecar(file) ? read_metadata_file(file) : picture_description(file);
 }
 
 /// Throws json::exception and InvalidRequest.
@@ -42,7 +50,9 @@ Plane recorded_plane(const fs::path& file) {
   try {
     record = parse_metadata_json(*text);
   } catch (const SampleError& error) {
-    throw SampleError(file.string() + ": " + error.what());
+    // A picture may say anything of itself.
+    throw SampleError(file.string() +
+                      (is_sidecar(file) ? ": " + std::string(error.what()) : kExpected));
   }
   try {
     return plane_in(record);

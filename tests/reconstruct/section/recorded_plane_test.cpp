@@ -58,12 +58,14 @@ TEST_F(RecordedPlane, NamesAFileThatHasNone) {
     EXPECT_THAT(error(), HasSubstr(path_.string() + ": does not say along which plane")) << text;
   }
   path_ = folder_ / "a.png";
-  write_section_image(path_, test_image(12, 9), {}, 90);
-  EXPECT_THAT(error(), HasSubstr(path_.string() + ": does not say along which plane"));
+  for (const char* description : {"", "a knee"}) {
+    write_section_image(path_, test_image(12, 9), {10.0, "knee", description}, 90);
+    EXPECT_THAT(error(), HasSubstr(path_.string() + ": does not say along which plane"));
+  }
 }
 
 TEST_F(RecordedPlane, NamesAFileThatIsGoneOrNoJson) {
-  EXPECT_THAT(error(), HasSubstr(path_.string()));
+  EXPECT_THAT(error(), HasSubstr(path_.string() + ": there is no such file"));
   write("{\"plane\": ");
   EXPECT_THAT(error(), HasSubstr(path_.string() + ": it is not JSON"));
 }
