@@ -24,30 +24,46 @@ EventSource::EventSource(EventFeed& feed, EventSights sights, Clock clock)
     const auto known = sights_.attempts->last();
     feed_.begin_after(known ? known->id : 0);
   }
-  thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+  records_ = std::jthread([this](const std::stop_token& stop) { watch_records(stop); });
+  rig_ = std::jthread([this](const std::stop_token& stop) { watch_rig(stop); });
 }
 
 EventSource::~EventSource() {
-  thread_.request_stop();
+  rig_.request_stop();
+  records_.request_stop();
 }
 
-void EventSource::watch(const std::stop_token& stop) {
-  ::pthread_setname_np(::pthread_self(), "events");
+void EventSource::watch_rig(const std::stop_token& stop) {
   auto alive = clock_();
-  for (int look = 0; !stop.stop_requested(); ++look) {
-    try {
-      tell_state(sights_.status, "status", told_status_);
-      tell_attempts();
-      if (look % kLooksAtSample == 0) tell_state(sights_.sample, "sample", told_sample_);
-      complaint_.clear();
-    } catch (const std::exception& error) {
-      // A journal that is locked or being made: the next look may see it.
-      if (complaint_ != error.what()) log_warning("events", error.what());
-      complaint_ = error.what();
-    }
+  look_on("events", stop, [&] {
     if (const auto now = clock_(); now - alive >= kAlive) {
       alive = now;
       feed_.tell_alive();
+    }
+    tell_state(sights_.status, "status", told_status_);
+  });
+}
+
+void EventSource::watch_records(const std::stop_token& stop) {
+  int look = 0;
+  look_on("events-disk", stop, [&] {
+    tell_attempts();
+    if (look++ % kLooksAtSample == 0) tell_state(sights_.sample, "sample", told_sample_);
+  });
+}
+
+void EventSource::look_on(const char* name, const std::stop_token& stop,
+                          const std::function<void()>& look) {
+  ::pthread_setname_np(::pthread_self(), name);
+  std::string complaint;  // the last that was logged
+  while (!stop.stop_requested()) {
+    try {
+      look();
+      complaint.clear();
+    } catch (const std::exception& error) {
+      // A journal that is locked or being made: the next look may see it.
+      if (complaint != error.what()) log_warning("events", error.what());
+      complaint = error.what();
     }
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, stop, kLook, [] { return false; });

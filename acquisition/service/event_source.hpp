@@ -14,15 +14,17 @@
 
 namespace biotomy::acquisition {
 
-/// What an EventSource looks at. Each may be empty, and is called by the source's thread alone.
+/// What an EventSource looks at. Each may be empty, and is called by one thread of the source
+/// alone.
 struct EventSights {
   std::function<std::string()> status;  ///< the JSON of the event `status`
   std::function<std::string()> sample;  ///< the JSON of the event `sample`
   AttemptWatch* attempts = nullptr;
 };
 
-/// Looks at the rig and the sample five times a second, with a thread of its own, and tells a feed
-/// what has changed. Nobody waits for it: not the control thread, whose status it only looks at.
+/// Looks at the rig and the sample five times a second and tells a feed what has changed. Nobody
+/// waits for it: not the control thread, whose status it only looks at. The rig has a thread of its
+/// own that touches no file: a disk that does not answer keeps nobody from hearing of an alarm.
 class EventSource {
  public:
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
@@ -34,7 +36,9 @@ class EventSource {
   EventSource& operator=(const EventSource&) = delete;
 
  private:
-  void watch(const std::stop_token& stop);
+  void watch_rig(const std::stop_token& stop);
+  void watch_records(const std::stop_token& stop);
+  void look_on(const char* name, const std::stop_token& stop, const std::function<void()>& look);
   void tell_state(const std::function<std::string()>& sight, const char* name, std::string& told);
   void tell_attempts();
 
@@ -43,10 +47,10 @@ class EventSource {
   Clock clock_;
   std::string told_status_;
   std::string told_sample_;
-  std::string complaint_;  ///< the last that was logged
   std::mutex mutex_;
   std::condition_variable_any woken_;
-  std::jthread thread_;
+  std::jthread records_;
+  std::jthread rig_;
 };
 
 /// The event `attempt`.

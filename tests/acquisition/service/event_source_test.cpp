@@ -76,6 +76,26 @@ TEST(EventSource, GoesOnAfterWhatItCouldNotSee) {
   EXPECT_EQ(next_with(*listener, "status"), "event: status\ndata: {}\n\n");
 }
 
+TEST(EventSource, TellsOfTheRigWhileTheSamplesDiskDoesNotAnswer) {
+  EventFeed feed;
+  const auto listener = feed.subscribe();
+  std::atomic<int> state = 1;
+  std::promise<void> answers;
+  const std::shared_future<void> answered = answers.get_future();
+  const EventSource source(feed,
+                           {.status = [&] { return "{\"state\":" + std::to_string(state) + "}"; },
+                            .sample =
+                                [&] {
+                                  answered.wait();
+                                  return std::string("{}");
+                                }});
+  EXPECT_EQ(next_with(*listener, "state"), "event: status\ndata: {\"state\":1}\n\n");
+  state = 2;
+  EXPECT_EQ(next_with(*listener, "state"), "event: status\ndata: {\"state\":2}\n\n");
+  answers.set_value();
+  EXPECT_EQ(next_with(*listener, "sample"), "event: sample\ndata: {}\n\n");
+}
+
 TEST(EventSource, GivesSignsOfLifeByTheClockHoweverLongItsLooksTake) {
   EventFeed feed;
   const auto listener = feed.subscribe();
