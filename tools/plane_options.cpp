@@ -83,7 +83,7 @@ void add_plane_options(CLI::App& command, PlaneOptions& options) {
                      "through the sample's middle without --through");
   command.add_option("--azimuth", options.azimuth,
                      "With --tilt: degrees of the normal about z, from x towards y; 0");
-  command.add_option("--plane-of", options.plane_of,
+  command.add_option("--plane-of", options.earlier_section,
                      "Instead: the plane of an earlier section; its .json, .png or .tif");
 }
 
@@ -115,17 +115,18 @@ void take_unquoted_points(CLI::App& command) {
 
 Plane plane_of(const PlaneOptions& options, reconstruct::LengthUnit unit, const Cuboid& cuboid) {
   const bool by_points_or_normal = options.points || options.normal;
-  const int ways =
-      static_cast<int>(by_points_or_normal) + static_cast<int>(options.layer.has_value()) +
-      static_cast<int>(options.tilt.has_value()) + static_cast<int>(options.plane_of.has_value());
+  const int ways = static_cast<int>(by_points_or_normal) +
+                   static_cast<int>(options.layer.has_value()) +
+                   static_cast<int>(options.tilt.has_value()) +
+                   static_cast<int>(options.earlier_section.has_value());
   const bool takes_point = by_points_or_normal || options.tilt;
   if (ways != 1 || (options.azimuth && !options.tilt) || (options.through && !takes_point)) {
     throw InvalidRequest(
         "which plane? give --points, or --normal with --through, or --layer, or --tilt with or "
         "without --azimuth and --through, or --plane-of");
   }
-  if (options.plane_of) {
-    return reconstruct::recorded_plane(*options.plane_of);
+  if (options.earlier_section) {
+    return reconstruct::recorded_plane(*options.earlier_section);
   }
   if (by_points_or_normal) {
     return reconstruct::parse_plane("--", options, unit, cuboid.spacing);

@@ -18,7 +18,7 @@ struct PlaneOptions : reconstruct::PlaneText {
   std::optional<std::string> layer;
   std::optional<std::string> tilt;
   std::optional<std::string> azimuth;
-  std::optional<std::string> plane_of;  // a file
+  std::optional<std::string> earlier_section;
 };
 
 /// The command leaves arguments that it does not know to `take_unquoted_points`.

@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr const char* kTooLong = ": says more of itself than 1 MiB";
 
 /// The keyword of a text and what follows it: not compressed, of no stated language.
 constexpr std::string_view kPngKeyword{"Description\0\0\0\0\0", 16};
@@ -41,7 +42,7 @@ std::optional<std::string> in_png(std::ifstream& file, const fs::path& path) {
       continue;
     }
     if (length > kMostBytes) {
-      throw SampleError(path.string() + ": says more of itself than 1 MiB");
+      throw SampleError(path.string() + kTooLong);
     }
     std::string text(length, '\0');
     if (!file.read(text.data(), static_cast<std::streamsize>(length))) {
@@ -56,13 +57,9 @@ std::optional<std::string> in_png(std::ifstream& file, const fs::path& path) {
 }
 
 std::optional<std::string> in_tiff(const fs::path& path) {
-  const TiffFile file = TiffFile::open(path);
-  const char* text = nullptr;
-  if (TIFFGetField(file.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || text == nullptr) {
-    return std::nullopt;
-  }
-  if (std::string_view(text).size() > kMostBytes) {
-    throw SampleError(path.string() + ": says more of itself than 1 MiB");
+  auto text = TiffFile::open(path).text(TIFFTAG_IMAGEDESCRIPTION);
+  if (text && text->size() > kMostBytes) {
+    throw SampleError(path.string() + kTooLong);
   }
   return text;
 }

@@ -134,6 +134,14 @@ TiffFile TiffFile::create(std::vector<std::byte>& memory, bool big,
   return file;
 }
 
+std::optional<std::string> TiffFile::text(std::uint32_t tag) const {
+  const char* words = nullptr;
+  if (TIFFGetField(get(), tag, &words) != 1 || words == nullptr) {
+    return std::nullopt;
+  }
+  return words;
+}
+
 void TiffFile::finish() {
   if (TIFFWriteDirectory(get()) != 1) {
     fail("cannot write its directory");

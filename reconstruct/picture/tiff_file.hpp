@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ class TiffFile {
     T value = fallback;
     return TIFFGetFieldDefaulted(get(), tag, &value) == 1 ? value : fallback;
   }
+
+  /// A text tag of the page that it is turned to; none where the page has none.
+  std::optional<std::string> text(std::uint32_t tag) const;
 
   template <typename... Values>
   void set(std::uint32_t tag, Values... values) {

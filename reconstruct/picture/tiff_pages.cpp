@@ -47,12 +47,6 @@ std::int64_t number_behind(std::string_view name, std::string_view text) {
   return number;
 }
 
-std::string description_of(const TiffFile& file) {
-  const char* text = nullptr;
-  return TIFFGetField(file.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr ? text
-                                                                                           : "";
-}
-
 /// What programs write into the description of the first page.
 struct Declared {
   std::int64_t images = 1;
@@ -94,7 +88,7 @@ void go_to_page(const TiffFile& file, TiffPage page) {
 
 std::vector<TiffPage> pages_of_stack(const std::filesystem::path& path) {
   const TiffFile file = TiffFile::open(path);
-  const Declared declared = declared_by(description_of(file));
+  const Declared declared = declared_by(file.text(TIFFTAG_IMAGEDESCRIPTION).value_or(""));
   const bool grey = file.number<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1) == 1;
   std::vector<TiffPage> pages;
   for_each_picture(file, [&](TiffPage page) { pages.push_back(page); });

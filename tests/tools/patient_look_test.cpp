@@ -25,7 +25,6 @@ class PatientLookTest : public testing::Test {
     });
     const int port = server_.bind_to_any_port("127.0.0.1");
     thread_ = std::jthread([this] { server_.listen_after_bind(); });
-    while (!server_.is_running()) std::this_thread::sleep_for(milliseconds(1));
     daemon_ = std::make_unique<DaemonConnection>(
         DaemonOptions{"http://127.0.0.1:" + std::to_string(port), ""});
   }
