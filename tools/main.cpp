@@ -1,9 +1,11 @@
 #include <exception>
 #include <iostream>
 #include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "reconstruct/failure_text.hpp"
 #include "tools/command.hpp"
 
 namespace {
@@ -11,7 +13,7 @@ namespace {
 constexpr int kFailure = 1;
 constexpr int kUsage = 2;
 
-int fail(int code, const char* what) {
+int fail(int code, const std::string& what) {
   std::cerr << "biotomy: " << what << '\n';
   return code;
 }
@@ -45,7 +47,7 @@ int main(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     return fail(kUsage, error.what());
   } catch (const std::exception& error) {
-    return fail(kFailure, error.what());
+    return fail(kFailure, biotomy::reconstruct::failure_text(error));
   }
   // What was asked for may have gone to a file on a full disk.
   if (!std::cout.flush()) return fail(kFailure, "standard output takes no more: is its disk full?");

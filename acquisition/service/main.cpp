@@ -12,6 +12,7 @@
 #include "acquisition/service/device_list.hpp"
 #include "acquisition/service/quality_section.hpp"
 #include "acquisition/service/rig_check.hpp"
+#include "reconstruct/failure_text.hpp"
 
 namespace {
 
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
     std::cerr << "biotomyd: " << error.what() << '\n';
     return kUsage;
   } catch (const std::exception& error) {
-    std::cerr << "biotomyd: " << error.what() << '\n';
+    std::cerr << "biotomyd: " << biotomy::reconstruct::failure_text(error) << '\n';
     return kFailure;
   }
 }

@@ -19,6 +19,7 @@
 #include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/disk/write_behind.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/failure_text.hpp"
 #include "reconstruct/geometry/spacing.hpp"
 #include "reconstruct/import/partial_import.hpp"
 #include "reconstruct/store/layer_band.hpp"
@@ -273,7 +274,7 @@ SampleFolder import_images(const ImageSequence& images, const ImportRequest& req
     if (kept.empty()) {
       throw;
     }
-    throw SampleError(error.what() + kept);
+    throw SampleError(failure_text(error) + kept);
   }
 }
 

@@ -33,6 +33,12 @@ std::string file_of(const SampleFolder& sample, std::int64_t layer) {
   return sample.layer_path(layer).lexically_relative(sample.path()).string();
 }
 
+/// Whether layers of the one can stand beside layers of the other.
+bool are_alike(const SampleDescription& a, const SampleDescription& b) {
+  return a.cuboid.size == b.cuboid.size && a.bits == b.bits &&
+         a.repeated_layers == b.repeated_layers;
+}
+
 }  // namespace
 
 bool holds_import(const fs::path& folder) {
@@ -48,7 +54,7 @@ PartialImport::PartialImport(const fs::path& output, const SampleDescription& de
   lock_ = make_locked_folder(
       folder_,
       output_.string() + ": an export or another import of it is at work; wait for its end");
-  if (restart || !take_up(asked)) {
+  if (restart || !take_up(description, asked)) {
     try {
       begin(description, asked);
     } catch (...) {
@@ -75,32 +81,23 @@ void PartialImport::refuse_if_taken() const {
   }
 }
 
-bool PartialImport::take_up(const json& asked) {
+bool PartialImport::take_up(const SampleDescription& description, const json& asked) {
   if (!holds_import(folder_)) {
     return false;  // nothing was begun, or all was finished but the removal of this folder
   }
-  json begun;
-  try {
-    begun = json::parse(std::ifstream(folder_ / kRequestName, std::ios::binary));
-  } catch (const json::exception&) {
-    throw SampleError((folder_ / kRequestName).string() +
-                      ": is damaged; give --restart to begin anew");
-  }
-  sample_ = SampleFolder::open(folder_ / kSampleName);
+  const json begun = begun_request();
+  open_begun_sample();
   remove_unfinished_writes(sample_->path());
-  std::error_code error;
-  if (fs::exists(hashes_path(), error)) {
-    std::vector<LayerHash> hashes = readable_layer_hashes(hashes_path());
-    std::erase_if(hashes, [&](const LayerHash& each) {
-      return !fs::exists(sample_->path() / each.file, error);  // its name did not reach the disk
-    });
-    for (const LayerHash& each : hashes) {
-      stored_[each.file] = each.sha256;
-    }
-    write_durably(hashes_path(), layer_hash_lines(hashes));  // without lines that were cut off
+  take_up_hashes();
+  if (stored_.empty()) {
+    return false;  // there is nothing to keep, and the images may have become others meanwhile
   }
   const auto stored = [this](std::int64_t layer) { return is_stored(layer); };
-  if (const auto difference = import_difference(begun, asked, stored)) {
+  std::optional<std::string> difference = import_difference(begun, asked, stored);
+  if (!difference && !are_alike(sample_->description(), description)) {
+    difference = "the size or the bits of the images";
+  }
+  if (difference) {
     throw SampleError(output_.string() + ": another import of it was begun, in which " +
                       *difference +
                       " was another; repeat that to go on, or give --restart to begin anew");
@@ -111,8 +108,45 @@ bool PartialImport::take_up(const json& asked) {
   return true;
 }
 
+json PartialImport::begun_request() const {
+  const json begun = json::parse(std::ifstream(folder_ / kRequestName, std::ios::binary), nullptr,
+                                 /*allow_exceptions=*/false);
+  if (!begun.is_object()) {
+    throw SampleError((folder_ / kRequestName).string() +
+                      ": is damaged; give --restart to begin anew");
+  }
+  return begun;
+}
+
+void PartialImport::open_begun_sample() {
+  try {
+    sample_ = SampleFolder::open(folder_ / kSampleName);
+  } catch (const SampleError& error) {
+    throw SampleError(std::string(error.what()) + "; give --restart to begin the import anew");
+  }
+}
+
+void PartialImport::take_up_hashes() {
+  std::error_code error;
+  if (!fs::exists(hashes_path(), error)) {
+    return;
+  }
+  std::vector<LayerHash> hashes = readable_layer_hashes(hashes_path());
+  std::erase_if(hashes, [&](const LayerHash& each) {
+    return !fs::exists(sample_->path() / each.file, error);  // its name did not reach the disk
+  });
+  for (const LayerHash& each : hashes) {
+    stored_[each.file] = each.sha256;
+  }
+  write_durably(hashes_path(), layer_hash_lines(hashes));  // without lines that were cut off
+}
+
 void PartialImport::begin(const SampleDescription& description, const json& asked) {
   std::error_code error;
+  // First: killed in here, nobody takes what is left for an import that can be taken up.
+  if (fs::remove(folder_ / kRequestName, error)) {
+    sync_folder(folder_);
+  }
   for (const auto& entry : fs::directory_iterator(folder_, error)) {
     remove_folder(entry.path());
   }

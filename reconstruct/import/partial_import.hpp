@@ -22,9 +22,10 @@ bool holds_import(const std::filesystem::path& folder);
 /// the import can be taken up again. A lock keeps two imports of one output apart.
 class PartialImport {
  public:
-  /// Takes up the import that was begun, or begins one. `asked` is its import_record. Throws
-  /// SampleError when the output is there already, another process works on it, or what was begun
-  /// was another request (unless `restart`, which then begins anew).
+  /// Takes up the import that was begun, if it has a layer, or begins one. `asked` is its
+  /// import_record. Throws SampleError when the output is there already, another process works on
+  /// it, or what was begun was another request or of images of another size or depth (unless
+  /// `restart`, which then begins anew).
   PartialImport(const std::filesystem::path& output, const SampleDescription& description,
                 const nlohmann::json& asked, bool restart);
   PartialImport(const PartialImport&) = delete;
@@ -53,7 +54,11 @@ class PartialImport {
 
  private:
   void refuse_if_taken() const;
-  bool take_up(const nlohmann::json& asked);
+  /// Whether there was one that has layers.
+  bool take_up(const SampleDescription& description, const nlohmann::json& asked);
+  nlohmann::json begun_request() const;
+  void open_begun_sample();
+  void take_up_hashes();
   void begin(const SampleDescription& description, const nlohmann::json& asked);
   std::filesystem::path hashes_path() const { return folder_ / "layers.sha256"; }
 

@@ -1,8 +1,15 @@
 #include "reconstruct/import/partial_import.hpp"
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sys/inotify.h>
+#include <unistd.h>
 
+#include "reconstruct/disk/file_descriptor.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/import/import_request.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
@@ -18,6 +25,28 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::string kHash(64, 'a');
+
+/// What goes from some folders, in its order.
+class Removals {
+ public:
+  explicit Removals(const std::vector<std::filesystem::path>& folders)
+      : watch_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
+    for (const auto& folder : folders) {
+      ::inotify_add_watch(watch_.get(), folder.c_str(), IN_DELETE);
+    }
+  }
+
+  std::string first() {
+    alignas(inotify_event) std::array<char, 4096> events{};
+    if (::read(watch_.get(), events.data(), events.size()) <= 0) {
+      return "nothing";
+    }
+    return reinterpret_cast<const inotify_event*>(events.data())->name;
+  }
+
+ private:
+  FileDescriptor watch_;
+};
 
 class APartialImport : public testing::Test {
  protected:
@@ -149,6 +178,36 @@ TEST_F(APartialImport, TellsInWhatAnotherRequestDiffersAndOffersToBeginAnew) {
   EXPECT_EQ(take(true).stored_layers(), 0);
 }
 
+TEST_F(APartialImport, BeginsAnewWithOtherImagesWhereNoLayerIsStoredYet) {
+  take();
+  request_.notes = "x";
+  description_.cuboid.size = {9, 6, 2};
+  description_.bits = 16;
+  const PartialImport partial = take();
+  EXPECT_EQ(partial.sample().description().cuboid.size.x, 9);
+  EXPECT_EQ(partial.sample().description().bits, 16);
+}
+
+TEST_F(APartialImport, PutsNoLayersOfAnotherSizeOrDepthBesideThoseThatAreStored) {
+  store(take(), 2);
+  const SampleDescription begun = description_;
+  description_.cuboid.size = {9, 6, 2};
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("the size"), HasSubstr("--restart")));
+  description_ = begun;
+  description_.bits = 16;
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("bits"), HasSubstr("--restart")));
+  description_ = begun;
+  EXPECT_EQ(take().stored_layers(), 1);
+}
+
+TEST_F(APartialImport, BegunAnewIsNoImportToTakeUpWhileTheFormerOneIsRemoved) {
+  store(take(), 1);
+  const auto partial = folder_ / "out" / ".knee.partial";
+  Removals removals({partial, partial / "sample", partial / "sample" / "layers"});
+  take(true);
+  EXPECT_EQ(removals.first(), "request.json");
+}
+
 TEST_F(APartialImport, RemovesFilesThatWereNotFinishedWhenItWasKilled) {
   store(take(), 1);
   const auto sample = folder_ / "out" / ".knee.partial" / "sample";
@@ -191,6 +250,14 @@ TEST_F(APartialImport, NamesARequestThatIsDamaged) {
   store(take(), 1);
   write_text(folder_ / "out" / ".knee.partial" / "request.json", "{");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("request.json"), HasSubstr("--restart")));
+  write_text(folder_ / "out" / ".knee.partial" / "request.json", "[]");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("request.json"), HasSubstr("--restart")));
+}
+
+TEST_F(APartialImport, SaysHowToGoOnWhereItsSampleCannotBeOpened) {
+  store(take(), 1);
+  std::filesystem::remove(folder_ / "out" / ".knee.partial" / "sample" / "sample.toml");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("sample.toml"), HasSubstr("--restart")));
 }
 
 }  // namespace
