@@ -32,7 +32,7 @@ void run(const Options& options) {
   }
   refuse_output_in_sample("--output", options.output);
   const auto sample = reconstruct::SampleFolder::open(options.sample);
-  const auto volume = reconstruct::Volume::open(sample.volume_path());
+  const auto volume = reconstruct::Volume::of_sample(sample);
   const Interruption interruption;
   ProgressBar bar("Exporting", options.tiff ? "layers" : "chunks");
   const reconstruct::ExportRequest request{

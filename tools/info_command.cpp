@@ -137,6 +137,10 @@ void run(const Options& options) {
   } else {
     print(sample.description(), summary);
   }
+  if (summary.volume_misfit) {
+    std::cerr << "biotomy: " << sample.volume_path().string() << ": " << *summary.volume_misfit
+              << '\n';
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/level_mean.hpp"
+#include "reconstruct/store/volume_misfit.hpp"
 #include "reconstruct/whole_loop.hpp"
 
 namespace biotomy::reconstruct {
@@ -135,12 +136,11 @@ LayerTail::LayerTail(const SampleFolder& sample, const Volume& volume)
       volume_(volume),
       first_(volume.layers_present()),
       end_(first_ + sample.layers_on_disk(first_ + 1)) {
-  const SampleDescription& description = sample.description();
-  if (end_ > first_ &&
-      (volume.cuboid().size != description.cuboid.size || volume.bits() != description.bits)) {
-    throw SampleError(sample.volume_path().string() +
-                      ": does not fit the sample's description; build it anew: biotomy rebuild " +
-                      sample.path().string());
+  if (end_ == first_) {
+    return;
+  }
+  if (const auto what = misfit(volume.cuboid(), volume.bits(), sample)) {
+    throw SampleError(sample.volume_path().string() + ": " + *what);
   }
 }
 

@@ -24,7 +24,7 @@ namespace biotomy::reconstruct {
 class LayerTail {
  public:
   /// Finds the layers. The volume must outlive it. Throws SampleError when there are some and the
-  /// volume is not of this sample's size.
+  /// volume does not fit the sample's description.
   LayerTail(const SampleFolder& sample, const Volume& volume);
 
   /// From 1, those of the volume and of the tail together.

@@ -4,6 +4,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/volume.hpp"
+#include "reconstruct/store/volume_misfit.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -41,6 +42,7 @@ SampleSummary summarise(const SampleFolder& sample) {
     if (fs::exists(sample.volume_path())) {
       const Volume volume = Volume::open(sample.volume_path());
       summary.has_volume = true;
+      summary.volume_misfit = misfit(volume.cuboid(), volume.bits(), sample);
       summary.layers_in_volume = volume.layers_present();
       summary.layout = volume.layout();
       for (int level = 0; level < volume.levels(); ++level) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "reconstruct/sample/sample_folder.hpp"
@@ -19,6 +21,7 @@ struct SampleSummary {
   std::int64_t layers_in_sections = 0;  ///< those in the volume, and the images that follow them
   VolumeLayout layout;                  ///< of the volume, if there is one
   std::vector<PyramidLevel> levels;     ///< likewise
+  std::optional<std::string> volume_misfit;  ///< as misfit() tells it
 };
 
 /// Looks at names and sizes and at the volume's metadata, not into images or chunks.

@@ -17,6 +17,7 @@
 #include "reconstruct/store/missing_part.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/shard.hpp"
+#include "reconstruct/store/volume_misfit.hpp"
 #include "reconstruct/store/zarr_array.hpp"
 #include "reconstruct/whole_loop.hpp"
 
@@ -320,12 +321,8 @@ Volume Volume::of_sample(const SampleFolder& sample) {
   if (std::filesystem::exists(path / kMetadataName, error) ||
       std::filesystem::exists(path / level_path(0) / "c", error)) {
     Volume volume = open(path);
-    if (volume.cuboid().size != description.cuboid.size ||
-        volume.cuboid().spacing != description.cuboid.spacing ||
-        volume.bits() != description.bits) {
-      throw SampleError(path.string() +
-                        ": does not fit the sample's description: one of the two was changed; "
-                        "biotomy verify tells more");
+    if (const auto what = misfit(volume.cuboid(), volume.bits(), sample)) {
+      throw SampleError(path.string() + ": " + *what);
     }
     return volume;
   }

@@ -50,6 +50,7 @@ class Volume {
   static Volume open(std::unique_ptr<ObjectReader> objects);  ///< wherever they are stored
 
   /// The sample's volume; one without any layers, of the default layout, when none has been begun.
+  /// Throws SampleError also when it does not fit the sample's description.
   static Volume of_sample(const SampleFolder& sample);
 
   ~Volume();

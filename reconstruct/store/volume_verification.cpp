@@ -17,6 +17,7 @@
 #include <opencv2/core.hpp>
 
 #include "reconstruct/errors.hpp"
+#include "reconstruct/excerpt.hpp"
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/level_mean.hpp"
 #include "reconstruct/store/metadata_text.hpp"
@@ -25,6 +26,7 @@
 #include "reconstruct/store/pyramid_writer.hpp"
 #include "reconstruct/store/shard_layers.hpp"
 #include "reconstruct/store/stored_shard.hpp"
+#include "reconstruct/store/volume_misfit.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -123,9 +125,14 @@ class VolumeVerification {
       return false;
     }
     const SampleDescription& description = sample_.description();
-    if (group_.bits != description.bits || group_.spacing != description.cuboid.spacing ||
-        group_.name != description.name || group_.layers_present > description.cuboid.size.z) {
-      found(group_path, "does not fit the sample's description");
+    // The size is the arrays' to tell.
+    if (const auto what = misfit({description.cuboid.size, group_.spacing}, group_.bits, sample_)) {
+      found(group_path, *what);
+    }
+    if (group_.name != description.name) {
+      found(group_path, "names the sample '" + excerpt(group_.name) + "', and sample.toml '" +
+                            excerpt(description.name) + "'; biotomy rebuild " +
+                            sample_.path().string() + " takes over the latter");
     }
     for (std::size_t level = 0; level < group_.levels.size(); ++level) {
       if (!check_array(level)) {
@@ -143,6 +150,13 @@ class VolumeVerification {
     const Cuboid& cuboid = sample_.description().cuboid;
     try {
       const ZarrArray array = parse_array_metadata(read_metadata_file(path), path.string());
+      if (level == 0) {
+        if (const auto what =
+                misfit({array.size, cuboid.spacing}, sample_.description().bits, sample_)) {
+          found(path, *what);
+          return false;
+        }
+      }
       ZarrArray expected = level == 0 ? array : arrays_.front();
       expected.size = pyramid_level(cuboid, group_.levels[level]).size;
       expected.bits = group_.bits;

@@ -10,6 +10,7 @@
 #include "reconstruct/store/layer_band.hpp"
 #include "reconstruct/store/metadata_text.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
+#include "reconstruct/store/volume_misfit.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -73,10 +74,13 @@ void VolumeWriter::open() {
   const ZarrArray finest =
       parse_array_metadata(read_metadata_file(finest_path), finest_path.string());
   const SampleDescription& description = sample_.description();
-  if (finest.size != description.cuboid.size || finest.bits != description.bits ||
-      group.spacing != description.cuboid.spacing || group.layers_present > finest.size.z) {
-    throw SampleError(volume_.string() +
-                      ": does not fit the sample's description; build it anew: biotomy rebuild " +
+  if (const auto what = misfit({finest.size, group.spacing}, finest.bits, sample_)) {
+    throw SampleError(volume_.string() + ": " + *what);
+  }
+  if (group.layers_present > finest.size.z) {
+    throw SampleError(volume_.string() + ": does not fit the sample's description: it shows " +
+                      std::to_string(group.layers_present) + " layers, of " +
+                      std::to_string(finest.size.z) + "; build it anew: biotomy rebuild " +
                       sample_.path().string());
   }
   array_ = finest;

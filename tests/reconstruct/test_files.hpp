@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,18 @@ inline void flip_byte(const std::filesystem::path& path, std::size_t position) {
   auto bytes = read_file(path);
   bytes.at(position) ^= std::byte{0xFF};
   write_file(path, bytes);
+}
+
+/// Puts other words in the place of some, which must be there once.
+inline void replace_text(const std::filesystem::path& path, const std::string& from,
+                         const std::string& to) {
+  const auto bytes = read_file(path);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t place = text.find(from);
+  if (place == std::string::npos || text.find(from, place + 1) != std::string::npos) {
+    throw std::invalid_argument(path.string() + " does not say '" + from + "' once");
+  }
+  write_text(path, text.replace(place, from.size(), to));
 }
 
 inline std::vector<std::string> names_in(const std::filesystem::path& folder) {

@@ -1,10 +1,11 @@
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/volume_writer.hpp"
+#include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tools/command.hpp"
@@ -46,6 +47,17 @@ TEST_F(ExportCommand, WritesNothingIntoASample) {
   const std::string inside = (sample_.path() / "stack").string();
   EXPECT_THROW(run({"--tiff"}, inside), reconstruct::InvalidRequest);
   EXPECT_FALSE(std::filesystem::exists(inside));
+}
+
+TEST_F(ExportCommand, RefusesAVolumeThatDoesNotFitTheDescriptionAsSectionDoes) {
+  reconstruct::replace_text(sample_.path() / "sample.toml", "z = 50.0", "z = 25.0");
+  for (const std::vector<std::string>& form :
+       {std::vector<std::string>{"--tiff"}, std::vector<std::string>{"--ome-zarr", "0.4"}}) {
+    EXPECT_THAT(reconstruct::message_of<reconstruct::SampleError>([&] { run(form); }),
+                testing::AllOf(testing::HasSubstr("spacing_um.z is 50, in sample.toml 25"),
+                               testing::HasSubstr("biotomy rebuild " + sample_.path().string())));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
 TEST_F(ExportCommand, WantsOneForm) {

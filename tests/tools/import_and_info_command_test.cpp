@@ -163,6 +163,24 @@ TEST_F(Commands, InfoTellsProgramsAboutTheSample) {
   EXPECT_EQ(info.at("volume").at("levels")[0].at("size"), nlohmann::json({20, 10, 3}));
 }
 
+TEST_F(Commands, InfoWarnsOfAVolumeThatDoesNotFitTheDescription) {
+  run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
+  testing::internal::CaptureStderr();
+  run({"info", sample_});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  reconstruct::replace_text(sample_ + "/sample.toml", "z = 30.0", "z = 15.0");
+  for (const bool json : {false, true}) {
+    testing::internal::CaptureStderr();
+    const std::string text = json ? run({"info", sample_, "--json"}) : run({"info", sample_});
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "biotomy: " + sample_ +
+                  "/volume.ome.zarr: does not fit the sample's description: spacing_um.z is 30, in "
+                  "sample.toml 15; if sample.toml is right, biotomy rebuild " +
+                  sample_ + " makes the volume anew\n");
+    EXPECT_THAT(text, testing::HasSubstr(json ? "\"spacing_um\"" : "10 × 20 × 15 µm"));
+  }
+}
+
 TEST_F(Commands, InfoOfASampleWithoutAVolumeSaysSo) {
   run({"import", images_, "--spacing", "10,20,30", "-o", sample_});
   std::filesystem::remove_all(SampleFolder::open(sample_).volume_path());

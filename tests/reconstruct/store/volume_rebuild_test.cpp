@@ -5,7 +5,9 @@
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/volume.hpp"
+#include "reconstruct/store/volume_verification.hpp"
 #include "reconstruct/store/volume_writer.hpp"
+#include "tests/reconstruct/findings.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/reconstruct/volume_levels.hpp"
@@ -71,6 +73,25 @@ TEST_F(VolumeRebuild, GivesAStoreOfOneLevelItsLevels) {
   ASSERT_EQ(Volume::open(sample_.volume_path()).levels(), 1);
   rebuild_volume(sample_);
   EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
+}
+
+TEST_F(VolumeRebuild, TakesOverWhatWasCorrectedInTheDescription) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  replace_text(sample_.path() / "sample.toml", "z = 50.0", "z = 20.0");
+  const SampleFolder corrected = SampleFolder::open(sample_.path());
+  ASSERT_THROW(Volume::of_sample(corrected), SampleError);
+  rebuild_volume(corrected);
+  const Volume volume = Volume::of_sample(corrected);
+  EXPECT_EQ(volume.cuboid().spacing, (Vector3{10.0, 11.0, 20.0}));
+  EXPECT_EQ(volume.layers_present(), 13);
+  EXPECT_EQ(volume.layout(), layout_);
+  // The levels follow from the spacing: they are those of a volume that was begun with it.
+  VolumeWriter(corrected, layout_, folder_ / "begun").append(13, true);
+  EXPECT_THAT(differing_files(volume_contents(), contents_of(folder_ / "begun")),
+              testing::IsEmpty());
+  HeardFindings heard(sample_.path());
+  verify_volume(corrected, true, heard.listener());
+  EXPECT_THAT(heard.findings, testing::IsEmpty());
 }
 
 TEST_F(VolumeRebuild, MakesAVolumeWhereThereIsNone) {

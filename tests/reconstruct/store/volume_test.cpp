@@ -77,6 +77,14 @@ TEST_F(VolumeOnDisk, OfASampleIsTheOneInItsFolder) {
               AllOf(HasSubstr("zarr.json"), HasSubstr("is missing")));
 }
 
+TEST_F(VolumeOnDisk, OfASampleFitsItsDescription) {
+  replace_text(sample_.path() / "sample.toml", "z = 50.0", "z = 25.0");
+  EXPECT_THAT(
+      message_of<SampleError>([&] { Volume::of_sample(SampleFolder::open(sample_.path())); }),
+      AllOf(StartsWith(sample_.volume_path().string() + ": "),
+            HasSubstr("spacing_um.z is 50, in sample.toml 25"), HasSubstr("biotomy rebuild")));
+}
+
 TEST_F(VolumeOnDisk, OfASampleThatHasNoneYetHasNoLayers) {
   const auto expect_nothing = [&] {
     const Volume volume = Volume::of_sample(sample_);

@@ -114,8 +114,30 @@ TEST_F(VolumeVerification, FindsMetadataThatIsDamagedOrContradictsTheSample) {
   metadata.spacing = sample_.description().cuboid.spacing;
   metadata.layers_present = 15;
   write_text(in_volume("zarr.json"), group_metadata(metadata));
-  EXPECT_THAT(findings(), ElementsAre(AllOf(StartsWith("zarr.json: "), HasSubstr("description")),
+  EXPECT_THAT(findings(), ElementsAre(AllOf(StartsWith("zarr.json: "), HasSubstr("'another'"),
+                                            HasSubstr("'test'"), HasSubstr("biotomy rebuild")),
                                       AllOf(StartsWith("zarr.json: "), HasSubstr("levels"))));
+}
+
+TEST_F(VolumeVerification, NamesWhatDiffersFromTheDescriptionAndTheRemedy) {
+  const auto description = sample_.path() / "sample.toml";
+  const auto findings_of_changed = [&] {
+    HeardFindings heard(sample_.volume_path());
+    verify_volume(SampleFolder::open(sample_.path()), false, heard.listener());
+    return heard.findings;
+  };
+  const std::string remedy = "biotomy rebuild " + sample_.path().string();
+  replace_text(description, "z = 50.0", "z = 45.0");
+  EXPECT_THAT(
+      findings_of_changed(),
+      ElementsAre(AllOf(StartsWith("zarr.json: "),
+                        HasSubstr("spacing_um.z is 50, in sample.toml 45"), HasSubstr(remedy))));
+  replace_text(description, "z = 45.0", "z = 50.0");
+  replace_text(description, "width = 70", "width = 71");
+  EXPECT_THAT(
+      findings_of_changed(),
+      ElementsAre(AllOf(StartsWith("0/zarr.json: "),
+                        HasSubstr("grid.width is 70, in sample.toml 71"), HasSubstr(remedy))));
 }
 
 TEST_F(VolumeVerification, FindsThatLayersAreNotInTheVolume) {

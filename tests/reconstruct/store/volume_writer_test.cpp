@@ -159,7 +159,7 @@ TEST_F(Writer, RefusesAStoreOfAnotherSpacing) {
   metadata.spacing.z *= 2.0;
   write_text(sample_.volume_path() / "zarr.json", group_metadata(metadata));
   EXPECT_THAT(message_of<SampleError>([&] { VolumeWriter(sample_, small_layout()); }),
-              HasSubstr("does not fit"));
+              testing::AllOf(HasSubstr("does not fit"), HasSubstr("spacing_um.z is ")));
 }
 
 TEST_F(Writer, RefusesAStoreThatShowsMoreLayersThanTheSampleHas) {
