@@ -1,9 +1,11 @@
 #include <cstdint>
+#include <iostream>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "acquisition/records/sample_lock.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/export/ome_zarr_04.hpp"
 #include "reconstruct/export/tiff_stack.hpp"
@@ -26,6 +28,38 @@ struct Options {
   std::string output;
 };
 
+/// How the sample's newest layers get into its volume.
+std::string remedy(const std::string& sample) {
+  const std::string rebuild = "biotomy rebuild " + sample + " puts all layers there";
+  return acquisition::SampleLock::is_held(sample)
+             ? "what is missing follows when a band is full or the job is done; if it was aborted, "
+               "stop biotomyd, and " +
+                   rebuild
+             : rebuild;
+}
+
+/// One line on stderr when an export lacks layers of which there are images. Throws SampleError
+/// when there would be no others in it.
+void warn_of_layers_left_out(const reconstruct::SampleFolder& sample,
+                             const reconstruct::Volume& volume,
+                             const reconstruct::ExportRequest& request) {
+  const auto left_out = layers_left_out(sample, volume, request);
+  if (!left_out) {
+    return;
+  }
+  const std::string folder = sample.path().string();
+  const std::string layers = left_out->first == left_out->last
+                                 ? "layer " + std::to_string(left_out->first) + " is"
+                                 : "layers " + std::to_string(left_out->first) + " to " +
+                                       std::to_string(left_out->last) + " are";
+  if (volume.layers_present() == 0) {
+    throw reconstruct::SampleError(folder + ": has no layers in its volume to export: " + layers +
+                                   " there as images alone; " + remedy(folder));
+  }
+  std::cerr << "biotomy: " << folder << ": " << layers
+            << " not in the volume yet, nor in the export; " << remedy(folder) << '\n';
+}
+
 void run(const Options& options) {
   if (options.tiff != options.ome_zarr.empty()) {
     throw reconstruct::InvalidRequest("give either --ome-zarr 0.4 or --tiff");
@@ -34,11 +68,11 @@ void run(const Options& options) {
   const auto sample = reconstruct::SampleFolder::open(options.sample);
   const auto volume = reconstruct::Volume::of_sample(sample);
   const Interruption interruption;
+  reconstruct::ExportRequest request{
+      options.output, options.level, options.region, {}, Interruption::requested};
+  warn_of_layers_left_out(sample, volume, request);
   ProgressBar bar("Exporting", options.tiff ? "layers" : "chunks");
-  const reconstruct::ExportRequest request{
-      options.output, options.level, options.region,
-      [&](std::int64_t done, std::int64_t total) { bar.update(done, total); },
-      Interruption::requested};
+  request.progress = [&](std::int64_t done, std::int64_t total) { bar.update(done, total); };
   if (options.tiff) {
     export_tiff_stack(volume, request);
   } else {

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "reconstruct/export/voxel_region.hpp"
 #include "reconstruct/interruption.hpp"
+#include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/volume.hpp"
 
 namespace biotomy::reconstruct {
@@ -22,5 +24,19 @@ struct ExportRequest {
 /// The voxels of `request.level` that are asked for. Throws SampleError when there is no such level
 /// or no layer yet, and what parse_region throws.
 VoxelRegion exported_region(const Volume& volume, const ExportRequest& request);
+
+/// Section numbers, from 1, the last included.
+struct LayerNumbers {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+
+  friend bool operator==(const LayerNumbers&, const LayerNumbers&) = default;
+};
+
+/// The sample's layers that are not in its volume yet, but lie as images behind those that are;
+/// none where the request is for others alone. An export, which is made of the volume, leaves them
+/// out. Throws SampleError when there is no such level, and what parse_region throws.
+std::optional<LayerNumbers> layers_left_out(const SampleFolder& sample, const Volume& volume,
+                                            const ExportRequest& request);
 
 }  // namespace biotomy::reconstruct

@@ -61,10 +61,10 @@ VoxelRegion parse_region(const std::string& text, const VoxelRegion& whole) {
           parse_range(view.substr(second + 1), whole.z, 'z', text)};
 }
 
-VoxelRegion whole_level(const Volume& volume, int level) {
+VoxelRegion whole_level(const Volume& volume, int level, std::int64_t layers) {
   const PyramidLevel& place = volume.level(level);
-  const std::int64_t present = (volume.layers_present() + place.factor.z - 1) / place.factor.z;
-  return {{0, place.size.x}, {0, place.size.y}, {0, present}};
+  const std::int64_t depth = (layers + place.factor.z - 1) / place.factor.z;
+  return {{0, place.size.x}, {0, place.size.y}, {0, depth}};
 }
 
 VoxelRegion region_of_level(const VoxelRegion& region, const PyramidLevel& finer,

@@ -30,8 +30,8 @@ struct VoxelRegion {
 /// region is not within `whole`.
 VoxelRegion parse_region(const std::string& text, const VoxelRegion& whole);
 
-/// All of a level, as deep as layers are present.
-VoxelRegion whole_level(const Volume& volume, int level);
+/// All of a level, as deep as `layers` of level 0 have a part in it.
+VoxelRegion whole_level(const Volume& volume, int level, std::int64_t layers);
 
 /// The voxels of level `coarser` that a region of level `finer` has a part in.
 VoxelRegion region_of_level(const VoxelRegion& region, const PyramidLevel& finer,

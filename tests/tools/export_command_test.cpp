@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "acquisition/records/sample_lock.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/store/volume_rebuild.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
@@ -66,6 +68,76 @@ TEST_F(ExportCommand, WantsOneForm) {
   EXPECT_THROW(run({"--ome-zarr", "0.3"}), CLI::ParseError);
   EXPECT_THROW(run({"--tiff", "--region", "1:2"}), reconstruct::InvalidRequest);
   EXPECT_THROW(run({"--tiff", "--level", "7"}), reconstruct::SampleError);
+}
+
+/// A sample of which a band of 4 layers is in the volume and 3 layers follow as images, as a job
+/// leaves it.
+class ExportOfAnUnfinishedSample : public ExportCommand {
+ protected:
+  ExportOfAnUnfinishedSample() {
+    sample_ = reconstruct::sample_with_layers(folder_ / "u", {20, 10, 12}, 8, 7);
+    reconstruct::VolumeLayout layout;
+    layout.chunk = {4, 8, 8};
+    layout.shard = {4, 16, 16};
+    reconstruct::VolumeWriter(sample_, layout).append(7, false);
+  }
+
+  /// What is said on stderr.
+  std::string warning_of(const std::vector<std::string>& options) const {
+    testing::internal::CaptureStderr();
+    run(options);
+    return testing::internal::GetCapturedStderr();
+  }
+  std::size_t exported() const { return reconstruct::names_in(folder_ / "out").size(); }
+  std::string rebuild() const { return "biotomy rebuild " + sample_.path().string(); }
+};
+
+TEST_F(ExportOfAnUnfinishedSample, NamesTheLayersThatItLacksAndTheRemedy) {
+  EXPECT_EQ(warning_of({"--tiff"}), "biotomy: " + sample_.path().string() +
+                                        ": layers 5 to 7 are not in the volume yet, nor in the "
+                                        "export; " +
+                                        rebuild() + " puts all layers there\n");
+  EXPECT_EQ(exported(), 4U);
+}
+
+TEST_F(ExportOfAnUnfinishedSample, NamesThemWhateverTheForm) {
+  std::filesystem::remove(sample_.layer_path(6));
+  EXPECT_THAT(warning_of({"--ome-zarr", "0.4"}), testing::HasSubstr(": layer 5 is not in"));
+}
+
+TEST_F(ExportOfAnUnfinishedSample, SaysThatTheyFollowWhileADaemonWorksOnTheSample) {
+  const acquisition::SampleLock daemon(sample_.path());
+  EXPECT_THAT(warning_of({"--tiff"}),
+              testing::AllOf(testing::HasSubstr("layers 5 to 7"),
+                             testing::HasSubstr("what is missing follows when a band is full"),
+                             testing::HasSubstr("stop biotomyd, and " + rebuild())));
+}
+
+TEST_F(ExportOfAnUnfinishedSample, SaysNothingWhereAllThatIsAskedForIsThere) {
+  EXPECT_EQ(warning_of({"--tiff", "--region", "0:20,0:10,0:4"}), "");
+  reconstruct::rebuild_volume(sample_);
+  std::filesystem::remove_all(folder_ / "out");
+  EXPECT_EQ(warning_of({"--tiff"}), "");
+  EXPECT_EQ(exported(), 7U);
+}
+
+TEST_F(ExportOfAnUnfinishedSample, FailsWhereNoLayerIsInTheVolumeYet) {
+  const auto failure = [&] {
+    return reconstruct::message_of<reconstruct::SampleError>([&] { run({"--tiff"}); });
+  };
+  const std::string expected = sample_.path().string() +
+                               ": has no layers in its volume to export: layers 1 to 7 are there "
+                               "as images alone; " +
+                               rebuild() + " puts all layers there";
+  std::filesystem::remove_all(sample_.volume_path());
+  EXPECT_EQ(failure(), expected);
+  const reconstruct::VolumeWriter begun(sample_, {});
+  EXPECT_EQ(failure(), expected);
+  for (std::int64_t layer = 1; layer <= 7; ++layer) {
+    std::filesystem::remove(sample_.layer_path(layer));
+  }
+  EXPECT_EQ(failure(), "the volume has no layers yet");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
 }  // namespace
