@@ -68,6 +68,7 @@ struct QualityThresholds {
   double minimum_sharpness_to_record = 0.75;  ///< after a search of the same layer
   double minimum_sharpness_along_axis = 0.97;
   double minimum_fine_contrast = 0.7;       ///< of what the sharpness is compared with
+  double maximum_blurred_part = 0.15;       ///< of the frame, in one piece
   double minimum_brightness = 0.05;         ///< mean, of full scale
   double maximum_brightness = 0.95;         ///< mean, of full scale
   double maximum_clipped_fraction = 0.05;   ///< of pixels with a colour at full scale
@@ -80,6 +81,7 @@ struct QualityThresholds {
   double maximum_debris = 0.0025;           ///< part of the frame
   double maximum_frost = 0.02;              ///< part of the frame
   double maximum_glare = 0.0005;            ///< part of the frame
+  double maximum_shade = 0.02;              ///< part of the frame
   double maximum_dead_rows = 0.01;          ///< part of the rows; see dead_share
   double maximum_repeated_rows = 0.0;       ///< part of the noisy rows; see repeated_rows
   double minimum_face_change = 0.0015;      ///< of the fine detail's energy; 0: not judged

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "acquisition/quality/blurred_part.hpp"
 #include "acquisition/quality/sharpness_comparison.hpp"
 
 namespace biotomy::acquisition {
@@ -72,6 +73,15 @@ bool judge_contrast(References references, const std::string& to,
                             reason.c_str());
 }
 
+void judge_blurred_part(References references, const QualityThresholds& thresholds,
+                        Judgement& judgement) {
+  const auto part = blurred_part(*judgement.result().measures, references);
+  if (!part) return;
+  judgement.at_most("blurred_part", *part, thresholds.maximum_blurred_part, kBlurred,
+                    "%.3f of the frame, in one piece, is blurred, more than %.3f: look for a drop "
+                    "or breath on lens and face, and whether the face is level");
+}
+
 /// What the frame is most likely comes first: it gives the reason.
 void judge_ratio(const SharpnessComparison& found, const std::string& to,
                  const QualityThresholds& thresholds, Judgement& judgement) {
@@ -113,6 +123,8 @@ bool judge_sharpness(const SharpnessRecord& record, std::int64_t layer,
   } else {
     judgement.leave_open("nothing to compare the sharpness with");
   }
+  const bool is_of_layer = to_peak && record.peak_layer() == layer;
+  judge_blurred_part(is_of_layer || recent.empty() ? peak : recent, thresholds, judgement);
   // A search that ended far off has a peak without contrast too: the record comes first.
   return recent.empty() ? judge_contrast(peak, "the last focus peak", thresholds, judgement)
                         : judge_contrast(recent, kLastLayers, thresholds, judgement);

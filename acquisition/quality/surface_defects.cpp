@@ -9,6 +9,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "acquisition/quality/shade.hpp"
 #include "acquisition/quality/surface_colours.hpp"
 #include "acquisition/quality/thumbnail.hpp"
 
@@ -162,8 +163,11 @@ SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& no
   const cv::Mat cells = surface_scale(without_light(now.thumbnail, factor));
   const cv::Mat outside = outside_of_nearby(cells, surface_scale(before.thumbnail));
   const cv::Mat unknown = KnownColours(record.colours()).unknown_in(cells);
-  const cv::Mat frost = veiled(now.light / factor, before.light);
+  const cv::Mat light_grid = now.light / factor;
+  const cv::Mat frost = veiled(light_grid, before.light);
+  const cv::Mat shade = shaded(light_grid, before.light);
   const cv::Mat specks = specks_of(outside);
+  const cv::Mat casting = casting_in(now, record);
   cv::Mat frosted;
   cv::resize(frost, frosted, cells.size(), 0.0, 0.0, cv::INTER_NEAREST);
 
@@ -183,7 +187,8 @@ SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& no
   return {.debris = debris / all,
           .frost = cv::countNonZero(frost) / static_cast<double>(frost.total()),
           .glare = glare / all,
-          .arrived = cv::countNonZero(outside & ~specks & ~casting_in(now, record)) / all};
+          .shade = cv::countNonZero(shade) / static_cast<double>(shade.total()),
+          .arrived = cv::countNonZero(outside & ~specks & ~casting) / all};
 }
 
 }  // namespace biotomy::acquisition

@@ -12,6 +12,7 @@ struct SurfaceDefects {
   double debris = 0.0;
   double frost = 0.0;
   double glare = 0.0;
+  double shade = 0.0;
   double arrived = 0.0;  ///< is new over an area larger than a speck: tissue, not casting material
 };
 
@@ -33,6 +34,8 @@ struct SurfaceDefects {
 /// already; 0 where these differ by more than 0.3 of it, as between two tissues, or where it hides
 /// all. Of it the median of 5 × 5 cells, which leaves out what moves or comes up: the part of the
 /// frame where that is above 0.07. Foreign cells there are frost and not debris.
+///
+/// Shade: see shaded().
 SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& now,
                                     const SurfaceRecord& record, const LightChange& light);
 

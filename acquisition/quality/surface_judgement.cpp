@@ -1,6 +1,7 @@
 #include "acquisition/quality/surface_judgement.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "acquisition/quality/surface_defects.hpp"
@@ -14,6 +15,9 @@ constexpr double kNewPerArrived = 0.04;
 
 /// So many cells of a thumbnail have a colour of their own by chance.
 constexpr double kCellsByChance = 4.0;
+
+/// In a smaller frame a cell or two are more of it than the limit.
+constexpr std::size_t kLeastCells = 200;
 
 void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
                  const QualityThresholds& thresholds, Judgement& judgement) {
@@ -46,6 +50,11 @@ void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
                     "%.4f of the frame is glare, more than %.4f: ice or liquid reflects the lamp");
   judgement.at_most("frost", found.frost, thresholds.maximum_frost, "frost",
                     "%.4f of the frame is under a whitish veil, more than %.4f: frost on the face");
+  if (now.light.total() >= kLeastCells) {
+    judgement.at_most("shade", found.shade, thresholds.maximum_shade, "shaded",
+                      "%.3f of the frame is darker or brighter than its light is, more than %.3f: "
+                      "something stands in the light or before the lens");
+  }
   judgement.result().arrived = found.arrived;
   // It goes on coming up in the next layer, be it in small places alone.
   const double arrives = std::max(found.arrived, surfaces.arrived());

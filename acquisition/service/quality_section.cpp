@@ -37,6 +37,10 @@ void read_light_and_surface(const CheckedTable& table, QualityThresholds& thresh
                                     "part of the frame that may be under a whitish veil");
   thresholds.maximum_glare = number(table, "maximum_glare", thresholds.maximum_glare, "", 0.0, 1.0,
                                     "part of the frame that may reflect the lamp");
+  thresholds.maximum_shade =
+      number(table, "maximum_shade", thresholds.maximum_shade, "", 0.0, 1.0,
+             "part of the frame that may be darker or brighter, in all colours alike, than its "
+             "light makes it");
 }
 
 }  // namespace
@@ -76,6 +80,10 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
       table, "minimum_fine_contrast", thresholds.minimum_fine_contrast, "", 0.0, 10.0,
       "contrast of a frame's fine detail, where its colour is the same, relative to what its "
       "sharpness is compared with: for a blur that leaves nothing but noise");
+  thresholds.maximum_blurred_part = number(
+      table, "maximum_blurred_part", thresholds.maximum_blurred_part, "", 0.0, 1.0,
+      "part of the frame, in one piece, that may be clearly less sharp than the last layers were "
+      "there; 1: not judged");
   thresholds.minimum_brightness =
       number(table, "minimum_brightness", thresholds.minimum_brightness, "", 0.0, 1.0,
              "mean brightness, of full scale; below it the frame is black");

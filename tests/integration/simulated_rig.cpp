@@ -44,7 +44,8 @@ std::string quality_settings(const RigPlan& plan) {
   if (plan.width * plan.height >= kFewestPixels) return "";
   return "[quality]\nminimum_sharpness_ratio = 0\nminimum_sharpness_along_axis = 0\n"
          "minimum_sharpness_to_record = 0\nminimum_fine_contrast = 0\nmaximum_debris = 1\n"
-         "maximum_frost = 1\nmaximum_glare = 1\nmaximum_unevenness = 10\n"
+         "maximum_frost = 1\nmaximum_glare = 1\nmaximum_shade = 1\n"
+         "maximum_blurred_part = 1\nmaximum_unevenness = 10\n"
          "maximum_colour_cast = 10\nmaximum_brightness_change = 10\n";
 }
 

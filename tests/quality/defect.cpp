@@ -7,6 +7,11 @@ namespace {
 
 constexpr double kNever = -1.0;  // no strength of it is harmless
 
+constexpr double kGoalOfBlur = 0.99;
+
+// A part may show casting material alone, which hardly tells.
+constexpr double kGoalOfParts = 0.8;
+
 constexpr std::array kKinds{
     DefectKind{.defect = Defect::defocus,
                .name = "defocus",
@@ -17,7 +22,8 @@ constexpr std::array kKinds{
                .most = 60.0,
                .weight = 4,
                .slugs = {"blurred"},
-               .metric = "sharpness_ratio"},
+               .metric = "sharpness_ratio",
+               .goal = kGoalOfBlur},
     DefectKind{.defect = Defect::smear,
                .name = "vibration",
                .unit = "% of the contrast at half Nyquist",
@@ -27,7 +33,8 @@ constexpr std::array kKinds{
                .most = 100.0,
                .weight = 3,
                .slugs = {"smeared", "blurred"},
-               .metric = "sharpness_along_axis"},
+               .metric = "sharpness_along_axis",
+               .goal = kGoalOfBlur},
     DefectKind{.defect = Defect::lamp_dark,
                .name = "lamp too dark",
                .unit = "% of the light",
@@ -180,6 +187,27 @@ constexpr std::array kKinds{
                .weight = 1,
                .slugs = {"shifted"},
                .metric = "shift"},
+    DefectKind{.defect = Defect::shadow,
+               .name = "shadow",
+               .unit = "% of the light, on 8 to 40 % of the area",
+               .least = 1.0,
+               .harmless = 3.0,
+               .harmful = 15.0,
+               .most = 100.0,
+               .weight = 1,
+               .slugs = {"shaded", "uneven-light"},
+               .metric = "shade"},
+    DefectKind{.defect = Defect::part_blurred,
+               .name = "blurred in part",
+               .unit = "% of the contrast at half Nyquist, on 15 to 50 % of the area",
+               .least = 1.0,
+               .harmless = 3.0,
+               .harmful = 40.0,
+               .most = 95.0,
+               .weight = 2,
+               .slugs = {"blurred", "smeared"},
+               .metric = "blurred_part",
+               .goal = kGoalOfParts},
 };
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "tests/quality/phantom_sequence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "sim/physics/defocus.hpp"
 
@@ -161,7 +163,8 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
   Setting setting = well(clean);
   sim::Scene& scene = setting.scene;
   switch (defect) {
-    case Defect::defocus: {
+    case Defect::defocus:
+    case Defect::part_blurred: {
       const double spread_pixels = std::sqrt(-std::log(1.0 - part));
       const double confusion_um = 4.0 * spread_pixels * settings_.pixel_um;
       setting.defocus_um = drawn_.sign() * confusion_um / (2.0 * optics_.lens.numerical_aperture);
@@ -219,17 +222,64 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
   }
   made.contrast = contrast(setting);
   made.frame = photograph(setting);
+  if (defect == Defect::part_blurred) {
+    const cv::Mat mask = part_of_frame(drawn_.between(0.15, 0.5));
+    const bridge::Frame sharp = photograph(well(clean));
+    sharp.image.copyTo(made.frame.image, ~mask);
+  }
   spoil(made);
   if (defect == Defect::clipped) {
     made.strength = 100.0 * (clipped_share(made.frame.image) - clipped_share(accepted_.image));
-  } else if (defect == Defect::defocus || defect == Defect::smear) {
+  } else if (defect == Defect::defocus || defect == Defect::smear ||
+             defect == Defect::part_blurred) {
     made.strength = 100.0 * (1.0 - made.contrast);
   }
   made.demand = demand_of(kind, made.strength);
   return made;
 }
 
-/// What the camera does to the picture after it was taken.
+/// 255 in so large a part of the frame: along an edge, or a disc.
+cv::Mat PhantomSequence::part_of_frame(double share) {
+  cv::Mat mask = cv::Mat::zeros(settings_.height, settings_.width, CV_8UC1);
+  const int width = static_cast<int>(std::lround(share * mask.cols));
+  const int height = static_cast<int>(std::lround(share * mask.rows));
+  switch (drawn_.below(5)) {
+    case 0:
+      mask.colRange(0, width).setTo(255);
+      break;
+    case 1:
+      mask.colRange(mask.cols - width, mask.cols).setTo(255);
+      break;
+    case 2:
+      mask.rowRange(0, height).setTo(255);
+      break;
+    case 3:
+      mask.rowRange(mask.rows - height, mask.rows).setTo(255);
+      break;
+    default: {
+      // Of 40 % of a frame of 4 : 3 a disc still lies within it.
+      const double area = std::min(share, 0.4) * static_cast<double>(mask.total());
+      const int radius = static_cast<int>(std::sqrt(area / std::numbers::pi));
+      const cv::Point centre(static_cast<int>(drawn_.between(radius, mask.cols - radius)),
+                             static_cast<int>(drawn_.between(radius, mask.rows - radius)));
+      cv::circle(mask, centre, radius, cv::Scalar::all(255), cv::FILLED);
+    }
+  }
+  return mask;
+}
+
+/// Less light in a part of the frame, with an edge that is hard or soft.
+void PhantomSequence::shade(cv::Mat& image, double part) {
+  cv::Mat light;
+  part_of_frame(drawn_.between(0.08, 0.4)).convertTo(light, CV_32FC1, -part / 255.0, 1.0);
+  const double soft = drawn_.below(2) == 0 ? 0.0 : drawn_.between(2.0, 40.0);
+  if (soft > 0.0) cv::GaussianBlur(light, light, {}, soft);
+  cv::Mat colours;
+  cv::merge(std::array{light, light, light}, colours);
+  cv::multiply(image, colours, image, 1.0, image.type());
+}
+
+/// What happens to the picture after it was taken, or could be done to it in front of the lens.
 void PhantomSequence::spoil(LabelledFrame& made) {
   cv::Mat& image = made.frame.image;
   const int rows = static_cast<int>(std::lround(0.01 * made.strength * image.rows));
@@ -237,6 +287,9 @@ void PhantomSequence::spoil(LabelledFrame& made) {
   switch (made.defect) {
     case Defect::torn:
       accepted_.image.rowRange(last).copyTo(image.rowRange(last));
+      break;
+    case Defect::shadow:
+      shade(image, 0.01 * made.strength);
       break;
     case Defect::partial:
       image.rowRange(last).setTo(cv::Scalar::all(0));

@@ -69,6 +69,8 @@ class PhantomSequence {
   Defect next_defect();
   LabelledFrame defective(Defect defect, const sim::Block& clean, const sim::Block& dirty);
   LabelledFrame unchanged();
+  cv::Mat part_of_frame(double share);
+  void shade(cv::Mat& image, double part);
   void spoil(LabelledFrame& made);
 
   SequenceSettings settings_;

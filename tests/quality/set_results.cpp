@@ -49,9 +49,7 @@ void Rejections::add(const JudgedFrame& frame) {
 }
 
 double DefectResult::goal() const {
-  constexpr double kBlur = 0.99;
-  constexpr double kOther = 0.98;
-  return kind->defect == Defect::defocus || kind->defect == Defect::smear ? kBlur : kOther;
+  return kind->goal;
 }
 
 bool SetResults::reached() const {

@@ -1,5 +1,6 @@
 #include "acquisition/quality/sharpness_judgement.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -52,6 +53,24 @@ TEST(SharpnessJudgement, ComparesWithThisLayersSearchWhereThereWasOne) {
   EXPECT_EQ(as_found.verdict, Verdict::accepted) << as_found.reason;
   EXPECT_NEAR(as_found.sharpness_to_peak.value(), 1.0, 0.02);
   EXPECT_THAT(judged.judge(5, kFarOut).reason, HasSubstr("of this layer's focus peak"));
+}
+
+TEST(SharpnessJudgement, SeesThatAThirdOfTheFrameIsBlurredWhateverTheMedianSays) {
+  Judged judged;
+  for (int layer = 1; layer <= 4; ++layer) judged.record.accept(judged.frame(layer));
+  const cv::Mat sharp = judged.camera.photograph(100.0);
+  const cv::Mat blurred = judged.camera.photograph(100.0, 0.0, 0.0, kFarOut);
+  const cv::Rect part(0, 0, sharp.cols, sharp.rows / 3);
+  blurred(part).copyTo(sharp(part));
+  Judgement judgement;
+  judgement.result().measures = std::make_shared<const FrameMeasures>(measure_frame(sharp));
+  judge_sharpness(judged.record, 5, judged.thresholds, judgement);
+  const Assessment assessment = judgement.finish();
+  const auto found = std::ranges::find(assessment.metrics, "blurred_part", &Metric::name);
+  ASSERT_NE(found, assessment.metrics.end());
+  EXPECT_FALSE(found->passed);
+  EXPECT_NEAR(found->value, 1.0 / 3.0, 0.15);
+  EXPECT_EQ(assessment.slug, "blurred");
 }
 
 TEST(SharpnessJudgement, MistrustsASearchThatFoundAMuchWorseFocusThanTheLayersBefore) {

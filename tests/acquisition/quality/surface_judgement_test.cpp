@@ -47,6 +47,22 @@ TEST(SurfaceJudgement, SeesDebrisOfADarkColourToo) {
   EXPECT_EQ(watch.judge(strewn(watch.next_face(), 20, cv::Scalar(10, 10, 60))).slug, "debris");
 }
 
+TEST(SurfaceJudgement, SeesAPartInShadowHoweverDarkItIs) {
+  SurfaceWatch watch;
+  watch.accept_layers(3);
+  const Assessment clean = watch.judge(watch.next_face());
+  EXPECT_EQ(clean.verdict, Verdict::accepted) << clean.reason;
+  EXPECT_EQ(value_of(clean, "shade"), 0.0);
+  for (const double light : {0.85, 0.7, 0.3, 0.0}) {
+    cv::Mat image = watch.next_face();
+    cv::Mat part = image(cv::Rect(0, 0, 3 * image.cols / 10, image.rows));
+    part = part * light;
+    const Assessment shaded = watch.judge(image);
+    EXPECT_EQ(shaded.verdict, Verdict::rejected) << light;
+    EXPECT_NEAR(value_of(shaded, "shade"), 0.3, 0.05) << light;
+  }
+}
+
 TEST(SurfaceJudgement, ExpectsMoreNewColoursAfterALayerInWhichTissueCameUp) {
   SurfaceWatch watch;
   watch.accept_layers(2);
