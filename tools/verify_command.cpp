@@ -1,18 +1,24 @@
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "acquisition/records/journal_error.hpp"
 #include "acquisition/records/journal_reader.hpp"
+#include "acquisition/records/sample_lock.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_verification.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
+#include "reconstruct/sample/sample_growth.hpp"
 #include "reconstruct/store/volume_verification.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"
@@ -32,14 +38,16 @@ struct Options {
   bool deep = false;
 };
 
-/// Prints what is found, and counts it.
+/// Prints what is found, each once, and counts it.
 class Findings {
  public:
   void add(const Finding& finding) {
-    std::cout << finding.file.string() << ": " << finding.what << '\n';
-    ++count_;
+    const std::string line = finding.file.string() + ": " + finding.what;
+    if (told_.insert(line).second) {
+      std::cout << line << '\n';
+    }
   }
-  std::int64_t count() const { return count_; }
+  std::int64_t count() const { return static_cast<std::int64_t>(told_.size()); }
 
   VerificationListener listener(ProgressBar& bar) {
     return {[this](const Finding& finding) { add(finding); },
@@ -47,7 +55,34 @@ class Findings {
   }
 
  private:
-  std::int64_t count_ = 0;
+  std::set<std::string> told_;
+};
+
+/// Whether a daemon, or a rebuild, works on a sample.
+class SampleWork {
+ public:
+  explicit SampleWork(fs::path sample) : sample_(std::move(sample)) { is_seen(); }
+
+  /// Now, or at any time since this was made.
+  bool is_seen() { return seen_ = seen_ || acquisition::SampleLock::is_held(sample_); }
+
+  /// Waits for it a moment. False when nobody works any more, or after half a minute of moments: a
+  /// band's last shards and its metadata are written in less.
+  bool wait() {
+    constexpr std::chrono::milliseconds kMoment{200};
+    constexpr int kMostMoments = 150;
+    if (moments_ == kMostMoments || !acquisition::SampleLock::is_held(sample_)) {
+      return false;
+    }
+    ++moments_;
+    std::this_thread::sleep_for(kMoment);
+    return true;
+  }
+
+ private:
+  fs::path sample_;
+  bool seen_ = false;
+  int moments_ = 0;
 };
 
 bool is_there(const fs::path& path) {
@@ -78,17 +113,23 @@ std::vector<LayerHash> records_of(const SampleFolder& sample, Findings& findings
 void run(const Options& options) {
   const SampleFolder sample = SampleFolder::open(options.sample);
   Findings findings;
+  SampleWork work(sample.path());
+  const reconstruct::SampleGrowth growth{
+      .is_seen = [&] { return work.is_seen(); },
+      .records = [&] { return records_of(sample, findings); },
+      .wait = [&] { return work.wait(); },
+  };
   const std::vector<LayerHash> records = records_of(sample, findings);
   std::int64_t layers = 0;
   std::int64_t shards = 0;
   {
     ProgressBar bar("Verifying layers", "files");
     const bool of_a_job = is_there(sample.journal_path());  // which may not be done yet
-    layers = reconstruct::verify_layers(sample, records, !of_a_job, findings.listener(bar));
+    layers = reconstruct::verify_layers(sample, records, !of_a_job, findings.listener(bar), growth);
   }
   {
     ProgressBar bar("Verifying the volume", "shards");
-    shards = reconstruct::verify_volume(sample, options.deep, findings.listener(bar));
+    shards = reconstruct::verify_volume(sample, options.deep, findings.listener(bar), growth);
   }
   std::cout << "verified" << (options.deep ? " voxel for voxel" : "") << ": layer files " << layers
             << ", shards of the volume " << shards << "; "

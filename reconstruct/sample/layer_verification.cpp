@@ -55,6 +55,26 @@ void find_missing_layers(const SampleFolder& sample, bool all_expected,
   }
 }
 
+/// The hash of each file that has a record.
+std::map<std::string, std::string> by_file(const std::vector<LayerHash>& records) {
+  std::map<std::string, std::string> recorded;
+  for (const LayerHash& record : records) {
+    recorded[record.file] = record.sha256;
+  }
+  return recorded;
+}
+
+/// Of the files, which are in order, that of the deepest layer; empty when none is a layer's.
+std::string deepest_of(const std::vector<std::string>& files, const SampleFolder& sample) {
+  for (std::int64_t layer = sample.description().cuboid.size.z; layer >= 1; --layer) {
+    const std::string name = sample.layer_path(layer).lexically_relative(sample.path()).string();
+    if (std::binary_search(files.begin(), files.end(), name)) {
+      return name;
+    }
+  }
+  return {};
+}
+
 /// What is wrong with a file that is there; empty when nothing is.
 std::string fault_of(const fs::path& path, const std::string* recorded) {
   try {
@@ -74,20 +94,27 @@ std::string fault_of(const fs::path& path, const std::string* recorded) {
 }  // namespace
 
 std::int64_t verify_layers(const SampleFolder& sample, const std::vector<LayerHash>& records,
-                           bool all_expected, const VerificationListener& listener) {
+                           bool all_expected, const VerificationListener& listener,
+                           const SampleGrowth& growth) {
   find_missing_layers(sample, all_expected, listener);
-  std::map<std::string, std::string> recorded;
   for (const LayerHash& record : records) {
-    recorded[record.file] = record.sha256;
     std::error_code error;
     if (!fs::exists(sample.path() / record.file, error)) {
       listener.found({sample.path() / record.file, "has a record but is not there"});
     }
   }
-  if (records.empty()) {
+  const std::vector<std::string> files = layer_files(sample);
+  std::map<std::string, std::string> recorded = by_file(records);
+  std::string unrecorded_yet;
+  if (std::any_of(files.begin(), files.end(),
+                  [&](const std::string& file) { return !recorded.contains(file); }) &&
+      growth.is_seen()) {
+    recorded = by_file(growth.records());
+    unrecorded_yet = deepest_of(files, sample);
+  }
+  if (recorded.empty() && (files.size() > 1 || !growth.is_seen())) {
     listener.found({sample.path(), "has no records of its layers: they can only be decoded"});
   }
-  const std::vector<std::string> files = layer_files(sample);
   std::mutex mutex;
   std::int64_t done = 0;
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
@@ -96,7 +123,7 @@ std::int64_t verify_layers(const SampleFolder& sample, const std::vector<LayerHa
     const fs::path path = sample.path() / files[i];
     const std::string fault = fault_of(path, unknown ? nullptr : &record->second);
     const std::scoped_lock lock(mutex);
-    if (unknown && !records.empty()) {
+    if (unknown && !recorded.empty() && files[i] != unrecorded_yet) {
       listener.found({path, "has no record"});
     }
     if (!fault.empty()) {

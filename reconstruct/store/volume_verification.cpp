@@ -36,6 +36,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShardsInFlight = 3;
 constexpr double kMostShards = 1e8;        // a file each: more than a file system is made for
 constexpr std::int64_t kMostListed = 100;  // of what is missing
+constexpr int kMostComparisons = 4;        // of one shard: no volume grows that quickly
 
 /// A SampleError's message begins with the file, which the finding names itself.
 std::string without_name(const std::string& message, const fs::path& file) {
@@ -79,13 +80,15 @@ std::optional<std::string> difference(const std::vector<cv::Mat>& found,
 
 class VolumeVerification {
  public:
-  VolumeVerification(const SampleFolder& sample, const VerificationListener& listener)
-      : sample_(sample), listener_(listener), volume_(sample.volume_path()) {}
+  VolumeVerification(const SampleFolder& sample, const VerificationListener& listener,
+                     const SampleGrowth& growth)
+      : sample_(sample), listener_(listener), growth_(growth), volume_(sample.volume_path()) {}
 
   std::int64_t run(bool deep) {
     if (!check_metadata() || !check_shard_count()) {
       return 0;
     }
+    layers_listed_ = group_.layers_present;
     check_layers_present();
     const std::vector<ShardPlace> shards = stored_shards();
     if (group_.every_shard) {
@@ -185,8 +188,10 @@ class VolumeVerification {
         (files == 0 ? std::string("there is no layer file 1")
                     : "layer files 1 to " + std::to_string(files) + " follow without a gap");
     const bool complete = files == sample_.description().cuboid.size.z;
-    if (present > files || (complete && present < files) ||
-        files - present >= arrays_.front().layout.shard[0]) {
+    const std::int64_t depth = arrays_.front().layout.shard[0];
+    const bool lacks_some = files - present >= depth || (complete && present < files);
+    const bool on_their_way = files - present < 2 * depth && growth_.is_seen();
+    if (present > files || (lacks_some && !on_their_way)) {
       found(volume_, counts);
     }
   }
@@ -280,8 +285,12 @@ class VolumeVerification {
   }
 
   /// Of which a finding tells already.
-  bool is_known_to_be_bad(const fs::path& shard) const {
-    return damaged_.contains(shard) || (group_.every_shard && !there_.contains(shard));
+  bool is_known_to_be_bad(const ShardPlace& place) const {
+    const fs::path path = shard_path(place);
+    const std::int64_t first_layer =  // of level 0's; what has come since the listing is not in it
+        place.z * arrays_[place.level].layout.shard[0] * group_.levels[place.level].z;
+    const bool was_listed = group_.every_shard && first_layer < layers_listed_;
+    return damaged_.contains(path) || (was_listed && !there_.contains(path));
   }
 
   void decode_all(const std::vector<ShardPlace>& shards) {
@@ -365,40 +374,84 @@ class VolumeVerification {
 
   void compare_level(std::size_t level) {
     const BlockCount shards = shards_of(arrays_[level]);
-    const std::int64_t depth = arrays_[level].layout.shard[0];
     for (std::int64_t z = 0; z < shards.z; ++z) {
-      const std::int64_t end = std::min((z + 1) * depth, layers_present_at(group_, level));
       for (std::int64_t y = 0; y < shards.y; ++y) {
         for (std::int64_t x = 0; x < shards.x; ++x) {
-          if (z * depth < end) {
-            compare_shard({level, z, y, x}, z * depth, end);
-          }
+          compare_shard({level, z, y, x});
           count_one();
         }
       }
     }
   }
 
-  void compare_shard(const ShardPlace& place, std::int64_t first, std::int64_t end) {
-    const fs::path path = shard_path(place);
-    if (is_known_to_be_bad(path)) {
-      return;  // told before
+  void compare_shard(const ShardPlace& place) {
+    std::optional<std::string> fault = fault_of(place);
+    for (int i = 1; fault && i < kMostComparisons && has_grown(place); ++i) {
+      fault = fault_of(place);
+    }
+    if (fault) {
+      found(shard_path(place), *fault);
+    }
+  }
+
+  /// Whether the volume has other layers now than when the shard was compared. Shards are replaced
+  /// before the metadata says so: where that may explain a difference, it is waited for.
+  bool has_grown(const ShardPlace& place) {
+    bool waits = may_be_replaced(place);
+    while (!read_layers_present()) {
+      if (!waits) {
+        return false;
+      }
+      waits = growth_.wait();
+    }
+    return true;
+  }
+
+  /// Of a shard that there is, only the level's last layer becomes another, and only while it is
+  /// the mean of fewer layers than it can be.
+  bool may_be_replaced(const ShardPlace& place) const {
+    const std::int64_t depth = arrays_[place.level].layout.shard[0];
+    const std::int64_t layers = layers_present_at(group_, place.level);
+    return layers * group_.levels[place.level].z > group_.layers_present &&
+           layers <= (place.z + 1) * depth;
+  }
+
+  /// False when they are as many as before.
+  bool read_layers_present() {
+    const fs::path group_path = volume_ / kMetadataName;
+    try {
+      const std::int64_t layers =
+          parse_group_metadata(read_metadata_file(group_path), group_path.string()).layers_present;
+      return std::exchange(group_.layers_present, layers) != layers;
+    } catch (const SampleError&) {
+      return false;  // it was read before, and what is compared needs no more of it
+    }
+  }
+
+  /// What is wrong with a shard of those layers that the volume has now.
+  std::optional<std::string> fault_of(const ShardPlace& place) const {
+    const std::int64_t depth = arrays_[place.level].layout.shard[0];
+    const std::int64_t first = place.z * depth;
+    const std::int64_t end = std::min(first + depth, layers_present_at(group_, place.level));
+    if (first >= end || is_known_to_be_bad(place)) {
+      return std::nullopt;  // the latter was told before
     }
     try {
       const auto stored = stored_layers(place.level, first, end, place.y, place.x);
       const auto expected =
           place.level == 0 ? layer_files(place, first, end) : means_of_finer(place, first, end);
       if (expected.empty()) {
-        return;  // of what it is made is damaged, which was told before
+        return std::nullopt;  // of what it is made is damaged, which was told before
       }
       if (const auto where = difference(stored, expected)) {
-        found(path, (place.level == 0
-                         ? "is not what the layer files hold: "
-                         : "is not the mean of level " + std::to_string(place.level - 1) + ": ") +
-                        *where);
+        return (place.level == 0
+                    ? "is not what the layer files hold: "
+                    : "is not the mean of level " + std::to_string(place.level - 1) + ": ") +
+               *where;
       }
+      return std::nullopt;
     } catch (const SampleError& error) {
-      found(path, std::string("cannot be compared: ") + error.what());
+      return std::string("cannot be compared: ") + error.what();
     }
   }
 
@@ -429,7 +482,7 @@ class VolumeVerification {
           continue;
         }
         for (std::int64_t z = finer_first / depth; z * depth < finer_end; ++z) {
-          if (is_known_to_be_bad(shard_path({finer, z, y, x}))) {
+          if (is_known_to_be_bad({finer, z, y, x})) {
             return {};
           }
         }
@@ -448,8 +501,10 @@ class VolumeVerification {
 
   const SampleFolder& sample_;
   const VerificationListener& listener_;
+  const SampleGrowth& growth_;
   fs::path volume_;
-  VolumeMetadata group_;
+  VolumeMetadata group_;            ///< with the layers that are present by now
+  std::int64_t layers_listed_ = 0;  ///< present when the shards were listed
   std::vector<ZarrArray> arrays_;
   std::mutex mutex_;
   std::set<fs::path> there_;  ///< where every shard is stored
@@ -461,13 +516,13 @@ class VolumeVerification {
 }  // namespace
 
 std::int64_t verify_volume(const SampleFolder& sample, bool deep,
-                           const VerificationListener& listener) {
+                           const VerificationListener& listener, const SampleGrowth& growth) {
   std::error_code error;
   if (!fs::exists(sample.volume_path(), error)) {
     listener.found({sample.volume_path(), "is missing; biotomy rebuild makes it"});
     return 0;
   }
-  return VolumeVerification(sample, listener).run(deep);
+  return VolumeVerification(sample, listener, growth).run(deep);
 }
 
 }  // namespace biotomy::reconstruct

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "acquisition/records/layer_journal.hpp"
+#include "acquisition/records/sample_lock.hpp"
 #include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_hashes.hpp"
@@ -16,6 +17,7 @@
 namespace biotomy::tools {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class VerifyCommand : public testing::Test {
@@ -29,6 +31,16 @@ class VerifyCommand : public testing::Test {
       hashes.push_back({"layers/" + path.filename().string(), reconstruct::sha256_of_file(path)});
     }
     reconstruct::write_text(sample_.hashes_path(), reconstruct::layer_hash_lines(hashes));
+  }
+  void commit(std::int64_t layer, const std::string& sha256) const {
+    acquisition::LayerJournal journal(sample_.journal_path());
+    acquisition::AttemptRow row;
+    row.layer = layer;
+    row.attempt = 1;
+    row.assessment.verdict = acquisition::Verdict::accepted;
+    row.file = sample_.layer_path(layer).lexically_relative(sample_.path()).string();
+    row.sha256 = sha256;
+    journal.commit_layer(row, 1, "2026-01-02T03:04:05Z");
   }
   /// What was printed, and the message of the failure, if any.
   std::string run(std::vector<std::string> options = {}) const {
@@ -66,29 +78,32 @@ TEST_F(VerifyCommand, NamesTheFileThatIsWrongAndFails) {
 }
 
 TEST_F(VerifyCommand, TakesTheRecordsOfAJobFromItsJournal) {
-  {
-    acquisition::LayerJournal journal(sample_.journal_path());
-    acquisition::AttemptRow row;
-    row.layer = 1;
-    row.attempt = 1;
-    row.assessment.verdict = acquisition::Verdict::accepted;
-    row.file = "layers/000001.tif";
-    row.sha256 = reconstruct::sha256_of_file(sample_.layer_path(1));
-    journal.commit_layer(row, 1, "2026-01-02T03:04:05Z");
-    row.layer = 2;
-    row.file = "layers/000002.tif";
-    row.sha256 = std::string(64, '0');
-    journal.commit_layer(row, 1, "2026-01-02T03:04:06Z");
-  }
+  commit(1, reconstruct::sha256_of_file(sample_.layer_path(1)));
+  commit(2, std::string(64, '0'));
   const std::string said = run();
   EXPECT_THAT(said, HasSubstr("000002.tif: is not what was stored"));
   EXPECT_THAT(said, HasSubstr("000003.tif: has no record"));
   EXPECT_THAT(said, HasSubstr("2 things are wrong"));
 }
 
+TEST_F(VerifyCommand, LetsTheNewestLayerBeOnItsWayWhileADaemonWorks) {
+  for (std::int64_t layer = 1; layer <= 2; ++layer) {
+    commit(layer, reconstruct::sha256_of_file(sample_.layer_path(layer)));
+  }
+  std::filesystem::remove_all(sample_.volume_path());
+  const reconstruct::VolumeWriter empty(sample_, {});
+  EXPECT_THAT(run(), AllOf(HasSubstr("000003.tif: has no record"), HasSubstr("holds 0 layers"),
+                           HasSubstr("2 things are wrong")));
+  const acquisition::SampleLock daemon(sample_.path());
+  EXPECT_THAT(run({"--deep"}), HasSubstr("nothing is wrong"));
+}
+
 TEST_F(VerifyCommand, FindsAJournalThatCannotBeRead) {
   reconstruct::write_text(sample_.journal_path(), "not a database, and long enough to be none");
-  EXPECT_THAT(run(), HasSubstr(sample_.journal_path().string() + ": "));
+  EXPECT_THAT(run(), AllOf(HasSubstr(sample_.journal_path().string() + ": "),
+                           HasSubstr("2 things are wrong")));  // and there are no records
+  const acquisition::SampleLock daemon(sample_.path());
+  EXPECT_THAT(run(), HasSubstr("2 things are wrong"));  // each is told once
 }
 
 }  // namespace

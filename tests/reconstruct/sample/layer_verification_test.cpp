@@ -28,7 +28,7 @@ class LayerVerification : public testing::Test {
   }
   std::vector<std::string> findings(bool all_expected = true) {
     HeardFindings heard(sample_.path());
-    files_ = verify_layers(sample_, records_, all_expected, heard.listener());
+    files_ = verify_layers(sample_, records_, all_expected, heard.listener(), growth_);
     EXPECT_EQ(heard.done, files_);
     EXPECT_EQ(heard.total, files_);
     return heard.findings;
@@ -37,6 +37,7 @@ class LayerVerification : public testing::Test {
   tests::TemporaryFolder folder_;
   SampleFolder sample_ = sample_with_layers(folder_ / "s", {30, 20, 4}, 8, 4);
   std::vector<LayerHash> records_;
+  SampleGrowth growth_;
   std::int64_t files_ = 0;
 };
 
@@ -90,6 +91,42 @@ TEST_F(LayerVerification, DoesNotWaitForAPipeInALayersPlace) {
   EXPECT_THAT(findings(), ElementsAre(no_file));
   records_.clear();  // then it is decoded
   EXPECT_THAT(findings(), ElementsAre(HasSubstr("no records"), no_file));
+}
+
+TEST_F(LayerVerification, LooksALayerUpOnceMoreWhileTheSampleGrows) {
+  std::vector<LayerHash> committed = records_;
+  records_.resize(2);
+  growth_.is_seen = [] { return true; };
+  growth_.records = [&] { return committed; };
+  EXPECT_THAT(findings(), IsEmpty());
+  committed[2].sha256 = std::string(64, '0');  // it is compared with the record that it has now
+  EXPECT_THAT(findings(),
+              ElementsAre(AllOf(StartsWith("layers/000003.tif: "), HasSubstr("SHA-256"))));
+}
+
+TEST_F(LayerVerification, LetsTheNewestLayerOfASampleThatGrowsBeWithoutARecord) {
+  records_.pop_back();
+  growth_.is_seen = [] { return true; };
+  growth_.records = [&] { return records_; };
+  EXPECT_THAT(findings(), IsEmpty());
+  truncate_file(sample_.layer_path(4), 0.5);
+  EXPECT_THAT(findings(), ElementsAre(StartsWith("layers/000004.tif: cannot be read")));
+  records_.pop_back();
+  EXPECT_THAT(findings(),
+              testing::UnorderedElementsAre("layers/000003.tif: has no record",
+                                            StartsWith("layers/000004.tif: cannot be read")));
+}
+
+TEST_F(LayerVerification, FindsNothingInASampleThatIsBegunJustNow) {
+  for (std::int64_t layer = 2; layer <= 4; ++layer) {
+    std::filesystem::remove(sample_.layer_path(layer));
+  }
+  records_.clear();
+  EXPECT_THAT(findings(false), ElementsAre(HasSubstr("no records")));
+  growth_.is_seen = [] { return true; };
+  EXPECT_THAT(findings(false), IsEmpty());
+  std::filesystem::remove(sample_.layer_path(1));
+  EXPECT_THAT(findings(false), IsEmpty());
 }
 
 TEST_F(LayerVerification, PassesOverAFileThatWasNeverFinished) {

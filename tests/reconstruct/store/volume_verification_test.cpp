@@ -31,7 +31,7 @@ class VolumeVerification : public testing::Test {
   }
   std::vector<std::string> findings(bool deep = false) {
     HeardFindings heard(sample_.volume_path());
-    shards_ = verify_volume(sample_, deep, heard.listener());
+    shards_ = verify_volume(sample_, deep, heard.listener(), growth_);
     EXPECT_EQ(heard.done, heard.total);
     return heard.findings;
   }
@@ -57,6 +57,7 @@ class VolumeVerification : public testing::Test {
   tests::TemporaryFolder folder_;
   VolumeLayout layout_;
   SampleFolder sample_ = sample_with_layers(folder_ / "s", {70, 45, 15}, 8, 15);
+  SampleGrowth growth_;
   std::int64_t shards_ = 0;
 };
 
@@ -149,6 +150,25 @@ TEST_F(VolumeVerification, FindsThatLayersAreNotInTheVolume) {
                                                 HasSubstr("12 layers"), HasSubstr("1 to 15"))));
 }
 
+TEST_F(VolumeVerification, LetsABandBeOnItsWayIntoAVolumeThatGrows) {
+  growth_.is_seen = [] { return true; };
+  const auto counts = AllOf(StartsWith("volume.ome.zarr: "), HasSubstr("layers"));
+  const auto findings_of = [&](std::int64_t layers, std::int64_t of, bool grows) {
+    const auto sample = sample_with_layers(
+        folder_ / (std::to_string(layers) + "of" + std::to_string(of)), {20, 10, of}, 8, layers);
+    VolumeWriter(sample, layout_).append(5, false);
+    HeardFindings heard(sample.path());
+    verify_volume(sample, false, heard.listener(), grows ? growth_ : SampleGrowth());
+    std::filesystem::remove_all(sample.path());
+    return heard.findings;
+  };
+  EXPECT_THAT(findings_of(6, 40, true), IsEmpty());
+  EXPECT_THAT(findings_of(11, 40, true), IsEmpty());
+  EXPECT_THAT(findings_of(8, 8, true), IsEmpty());  // the job's last band
+  EXPECT_THAT(findings_of(6, 40, false), ElementsAre(counts));
+  EXPECT_THAT(findings_of(12, 40, true), ElementsAre(counts));
+}
+
 TEST_F(VolumeVerification, TellsAsFarAsWhichLayerTheFilesFollowEachOther) {
   std::filesystem::remove(sample_.layer_path(10));
   EXPECT_THAT(findings(),
@@ -174,6 +194,85 @@ TEST_F(VolumeVerification, FindsOnlyWhenDeepAVoxelThatIsNotTheLayersOrNotTheMean
   change_a_voxel("1/c/0/0/0/0");
   EXPECT_THAT(findings(true),
               testing::Contains(AllOf(StartsWith("1/c/0/0/0/0: "), HasSubstr("mean of level 0"))));
+}
+
+/// A volume to which a band is appended while it is verified: at level 2 and deeper, four layers
+/// and more are one, and a band has two.
+class VerificationOfAGrowingVolume : public testing::Test {
+ protected:
+  VerificationOfAGrowingVolume() { grow_to(2); }
+
+  void grow_to(std::int64_t layers) {
+    add_layers(sample_, writer_.layers_written() + 1, layers);
+    writer_.append(layers, false);
+  }
+
+  /// `at_first` is called when the group has been read and no shard has been compared.
+  std::vector<std::string> findings(const std::function<void()>& at_first) {
+    HeardFindings heard(sample_.volume_path());
+    VerificationListener listener = heard.listener();
+    bool is_first = true;
+    listener.progress = [&](std::int64_t, std::int64_t) {
+      if (std::exchange(is_first, false)) at_first();
+    };
+    verify_volume(sample_, true, listener, growth_);
+    return heard.findings;
+  }
+  std::string group() const {
+    const auto text = read_file(sample_.volume_path() / "zarr.json");
+    return {reinterpret_cast<const char*>(text.data()), text.size()};
+  }
+  void write_group(const std::string& text) const {
+    write_text(sample_.volume_path() / "zarr.json", text);
+  }
+
+  tests::TemporaryFolder folder_;
+  SampleFolder sample_ = sample_with_layers(folder_ / "s", {40, 40, 8}, 8, 0, {10, 10, 10});
+  VolumeWriter writer_{sample_, {{2, 8, 8}, {2, 16, 16}, true, "zstd1"}};
+  SampleGrowth growth_{.is_seen = [] { return true; }};
+};
+
+TEST_F(VerificationOfAGrowingVolume, ComparesAShardAgainThatANewBandHasChanged) {
+  EXPECT_THAT(findings([&] { grow_to(4); }), IsEmpty());
+  EXPECT_THAT(findings([&] { grow_to(8); }), IsEmpty());
+}
+
+TEST_F(VerificationOfAGrowingVolume, WaitsForTheMetadataOfABandWhoseShardsAreThere) {
+  const std::string before = group();
+  std::string after;
+  growth_.wait = [&] {
+    write_group(after);
+    return true;
+  };
+  EXPECT_THAT(findings([&] {
+                grow_to(4);
+                after = group();
+                write_group(before);
+              }),
+              IsEmpty());
+  EXPECT_EQ(group(), after);
+}
+
+TEST_F(VerificationOfAGrowingVolume, TellsADifferenceThatNoNewBandExplains) {
+  const std::string before = group();
+  int waits = 0;
+  growth_.wait = [&] { return ++waits < 3; };
+  EXPECT_THAT(findings([&] {
+                grow_to(4);
+                write_group(before);
+              }),
+              testing::Contains(AllOf(StartsWith("2/c/0/0/0/0: "), HasSubstr("mean of level 1"))));
+  EXPECT_GE(waits, 3);
+}
+
+TEST_F(VerificationOfAGrowingVolume, ComparesWhatCameWithTheNewBandToo) {
+  EXPECT_THAT(findings([&] {
+                grow_to(4);
+                std::filesystem::copy_file(sample_.volume_path() / "2/c/0/0/0/0",
+                                           sample_.volume_path() / "1/c/0/0/0/0",
+                                           std::filesystem::copy_options::overwrite_existing);
+              }),
+              testing::Contains(StartsWith("1/c/0/0/0/0: is not the mean of level 0")));
 }
 
 TEST_F(VolumeVerification, FindsEveryShardThatIsLostOnce) {
