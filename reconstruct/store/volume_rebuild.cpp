@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "reconstruct/disk/folder_swap.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/layer_band.hpp"
+#include "reconstruct/store/layers_in_shards.hpp"
 #include "reconstruct/store/metadata_text.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
 #include "reconstruct/store/volume_writer.hpp"
@@ -56,23 +58,66 @@ std::int64_t count_layers(const SampleFolder& sample) {
   return last;
 }
 
-/// What the volume that is there shows; 0 where there is none, or none that can be read.
-std::int64_t layers_shown(const fs::path& volume) {
+/// How many layers a volume says that it has; none where that cannot be read.
+std::optional<std::int64_t> layers_shown(const fs::path& volume) {
   const fs::path path = volume / kMetadataName;
   try {
     return parse_group_metadata(read_metadata_file(path), path.string()).layers_present;
   } catch (const SampleError&) {
-    return 0;
+    return std::nullopt;
   }
 }
 
-VolumeLayout layout_of(const fs::path& volume) {
-  const fs::path path = volume / level_path(0) / kMetadataName;
-  try {
-    return parse_array_metadata(read_metadata_file(path), path.string()).layout;
-  } catch (const SampleError&) {
-    return {};  // there is none, or it is what the volume is made anew for
+/// The array of the finest level whose metadata can be read: levels differ in size alone.
+std::optional<ZarrArray> readable_array(const fs::path& volume) {
+  std::error_code error;
+  for (int level = 0; fs::is_directory(volume / level_path(level), error); ++level) {
+    const fs::path path = volume / level_path(level) / kMetadataName;
+    try {
+      return parse_array_metadata(read_metadata_file(path), path.string());
+    } catch (const SampleError&) {
+      continue;  // it is what the volume is made anew for
+    }
   }
+  return std::nullopt;
+}
+
+/// How many layers a volume without its metadata may hold: where not even one level says how deep
+/// a shard is, as many as the sample is to have.
+std::int64_t layers_held(const fs::path& volume, std::optional<ZarrArray> array,
+                         const SampleFolder& sample) {
+  const GridSize& size = sample.description().cuboid.size;
+  if (!array) {
+    return has_shards(volume) ? size.z : 0;
+  }
+  array->size = size;
+  return layers_in_shards(volume, *array);
+}
+
+/// Throws SampleError when the volume holds more layers than there are files, of which it may be
+/// the last copy.
+void check_loses_no_layers(const SampleFolder& sample, const fs::path& volume,
+                           const std::optional<ZarrArray>& array, std::int64_t layers) {
+  std::error_code error;
+  if (!fs::exists(volume, error) && !error) {
+    return;
+  }
+  const std::optional<std::int64_t> shown = layers_shown(volume);
+  const std::int64_t held = shown ? *shown : layers_held(volume, array, sample);
+  if (held > layers) {
+    throw SampleError(
+        sample.layer_path(layers + 1).string() + ": is missing, and the volume " +
+        (shown ? "shows " : "(whose zarr.json is missing or damaged) has shards for up to ") +
+        std::to_string(held) + " layers, of which a rebuild would lose " +
+        std::to_string(held - layers) + ": put the files back, or move " + volume.string() +
+        " away to have a volume without them");
+  }
+}
+
+/// Where a volume grows before it takes the place of the one that is there.
+fs::path unfinished_volume(const SampleFolder& sample) {
+  const fs::path place = sample.volume_path();
+  return place.parent_path() / ("." + place.filename().string() + ".partial");
 }
 
 }  // namespace
@@ -82,17 +127,12 @@ std::int64_t rebuild_volume(const SampleFolder& sample,
                             const StopRequested& stop) {
   const std::int64_t layers = count_layers(sample);
   const fs::path place = sample.volume_path();
-  if (const std::int64_t shown = layers_shown(place); shown > layers) {
-    throw SampleError(sample.layer_path(layers + 1).string() +
-                      ": is missing, and the volume shows " + std::to_string(shown) +
-                      " layers, of which a rebuild would lose " + std::to_string(shown - layers) +
-                      ": put the files back, or move " + place.string() +
-                      " away to have a volume without them");
-  }
-  const fs::path fresh = place.parent_path() / ("." + place.filename().string() + ".partial");
+  const fs::path fresh = unfinished_volume(sample);
+  const std::optional<ZarrArray> array = readable_array(place);
+  check_loses_no_layers(sample, place, array, layers);
   remove_folder(fresh);  // of a rebuild that was killed
   const UnfinishedFolder unfinished(fresh);
-  VolumeWriter writer(sample, layout_of(place), fresh);
+  VolumeWriter writer(sample, array ? array->layout : VolumeLayout(), fresh);
   while (writer.layers_written() < layers) {
     const std::int64_t first = writer.next_band();
     const std::int64_t count = std::min<std::int64_t>(writer.band_depth(), layers - first);

@@ -14,8 +14,10 @@ namespace biotomy::reconstruct {
 /// volume's place when it is complete; until then, and when something goes wrong, the old volume
 /// stays. All layers that there are go into it, also those of an incomplete band.
 /// No other writer may be at work on the sample.
-/// `progress(done, total)` is called after each band. Returns the number of layers. Throws
-/// SampleError when there is no layer, or one is missing between others or cannot be read.
+/// `progress(done, total)` is called after each band. Returns the number of layers.
+/// Throws SampleError when there is no layer, or one is missing between others or cannot be read,
+/// or when the old volume has layers of which there are no files; where its metadata cannot be
+/// read, its shards tell.
 std::int64_t rebuild_volume(const SampleFolder& sample,
                             const std::function<void(std::int64_t, std::int64_t)>& progress = {},
                             const StopRequested& stop = {});

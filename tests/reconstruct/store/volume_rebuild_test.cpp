@@ -123,6 +123,37 @@ TEST_F(VolumeRebuild, LosesNoLayersOfWhichOnlyTheVolumeIsLeft) {
   EXPECT_EQ(rebuild_volume(sample_), 11);
 }
 
+TEST_F(VolumeRebuild, LosesNoLayersOfAVolumeWhoseMetadataIsDamaged) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto metadata = [&](const std::string& level) {
+    return sample_.volume_path() / level / "zarr.json";
+  };
+  write_text(metadata(""), "{}");
+  std::filesystem::remove(sample_.layer_path(13));  // of the deepest band, which has no other
+  const auto rebuild = [&] { rebuild_volume(sample_); };
+  const auto refused = [](const std::string& held) {
+    return AllOf(HasSubstr("000013.tif"), HasSubstr("zarr.json is missing or damaged"),
+                 HasSubstr(held + " layers"), HasSubstr("put the files back, or move"));
+  };
+  EXPECT_THAT(message_of<SampleError>(rebuild), refused("13"));
+  write_text(metadata("0"), "{}");  // the next level says how deep a shard is, too
+  EXPECT_THAT(message_of<SampleError>(rebuild), refused("13"));
+  for (int level = 1; std::filesystem::remove(metadata(level_path(level))); ++level) {
+  }
+  EXPECT_THAT(message_of<SampleError>(rebuild), refused("15"));  // as many as there can be
+  std::filesystem::rename(sample_.volume_path(), folder_ / "aside");
+  EXPECT_EQ(rebuild_volume(sample_), 12);
+}
+
+TEST_F(VolumeRebuild, LosesNoLayersOfABandOfWhichSomeFilesAreThere) {
+  std::filesystem::remove(sample_.layer_path(13));
+  VolumeWriter(sample_, layout_).append(12, true);
+  write_text(sample_.volume_path() / "zarr.json", "{}");
+  std::filesystem::remove(sample_.layer_path(12));
+  EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }),
+              AllOf(HasSubstr("000012.tif"), HasSubstr("would lose 1")));
+}
+
 TEST_F(VolumeRebuild, LeavesTheOldVolumeWhenALayerIsDamaged) {
   VolumeWriter(sample_, layout_).append(13, true);
   const auto appended = volume_contents();
