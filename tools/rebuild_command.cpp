@@ -6,6 +6,7 @@
 
 #include "acquisition/records/sample_lock.hpp"
 #include "reconstruct/absolute_folder.hpp"
+#include "reconstruct/disk/folder_owner.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/store/volume_rebuild.hpp"
 #include "tools/command.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 void run(const std::string& folder) {
   const auto sample = reconstruct::SampleFolder::open(folder);
+  reconstruct::check_acts_for_owner(sample.path());  // before it makes a lock file, too
   const acquisition::SampleLock lock(reconstruct::absolute_folder(folder));
   keep_freed_memory();
   const Interruption interruption;

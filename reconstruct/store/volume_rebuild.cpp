@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "reconstruct/disk/folder_owner.hpp"
 #include "reconstruct/disk/folder_swap.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/layer_band.hpp"
@@ -145,6 +146,7 @@ std::int64_t rebuild_volume(const SampleFolder& sample,
       progress(writer.layers_written(), layers);
     }
   }
+  give_to_owner_of(sample.path(), fresh);
   replace_folder(fresh, place);
   return layers;
 }

@@ -13,8 +13,8 @@ namespace biotomy::reconstruct {
 /// layers one band after the other makes. It grows in `.volume.ome.zarr.partial` and takes the
 /// volume's place when it is complete; until then, and when something goes wrong, the old volume
 /// stays. All layers that there are go into it, also those of an incomplete band.
-/// No other writer may be at work on the sample.
-/// `progress(done, total)` is called after each band. Returns the number of layers.
+/// What root makes is given to the owner of the sample folder. No other writer may be at work on
+/// the sample. `progress(done, total)` is called after each band. Returns the number of layers.
 /// Throws SampleError when there is no layer, or one is missing between others or cannot be read,
 /// or when the old volume has layers of which there are no files; where its metadata cannot be
 /// read, its shards tell.

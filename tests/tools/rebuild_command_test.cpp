@@ -2,10 +2,13 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "acquisition/records/sample_lock.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/volume.hpp"
+#include "tests/another_user.hpp"
+#include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tools/command.hpp"
@@ -37,6 +40,16 @@ TEST_F(RebuildCommand, KeepsAwayFromASampleThatADaemonWorksOn) {
   EXPECT_THROW(run(sample_.path().string()), acquisition::SampleLockError);
   EXPECT_THROW(run(sample_.path().string() + "/"), acquisition::SampleLockError);
   EXPECT_FALSE(std::filesystem::exists(sample_.volume_path()));
+}
+
+TEST_F(RebuildCommand, IsForTheOwnerOfTheSampleToRun) {
+  if (!tests::AnotherUser::can_be()) GTEST_SKIP() << "only root can be another user";
+  ASSERT_EQ(::chmod(folder_.path().c_str(), 0777), 0);
+  const tests::AnotherUser stranger;
+  EXPECT_THAT(
+      reconstruct::message_of<reconstruct::SampleError>([&] { run(sample_.path().string()); }),
+      testing::HasSubstr("belongs to root"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / ".s.lock"));
 }
 
 TEST_F(RebuildCommand, OfWhatIsNoSampleFails) {

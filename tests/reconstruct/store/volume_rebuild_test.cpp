@@ -1,6 +1,8 @@
 #include "reconstruct/store/volume_rebuild.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/store/ome_metadata.hpp"
@@ -8,6 +10,7 @@
 #include "reconstruct/store/volume_verification.hpp"
 #include "reconstruct/store/volume_writer.hpp"
 #include "tests/reconstruct/findings.hpp"
+#include "tests/another_user.hpp"
 #include "tests/reconstruct/test_files.hpp"
 #include "tests/reconstruct/test_images.hpp"
 #include "tests/reconstruct/volume_levels.hpp"
@@ -152,6 +155,18 @@ TEST_F(VolumeRebuild, LosesNoLayersOfABandOfWhichSomeFilesAreThere) {
   std::filesystem::remove(sample_.layer_path(12));
   EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }),
               AllOf(HasSubstr("000012.tif"), HasSubstr("would lose 1")));
+}
+
+TEST_F(VolumeRebuild, GivesWhatRootMakesToTheOwnerOfTheSample) {
+  if (!tests::AnotherUser::can_be()) GTEST_SKIP() << "only root can be another user";
+  ASSERT_EQ(::chown(sample_.path().c_str(), tests::AnotherUser::kNumber, 54321), 0);
+  rebuild_volume(sample_);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(sample_.volume_path())) {
+    struct stat found {};
+    ASSERT_EQ(::stat(entry.path().c_str(), &found), 0);
+    EXPECT_EQ(found.st_uid, tests::AnotherUser::kNumber) << entry.path();
+    EXPECT_EQ(found.st_gid, 54321U) << entry.path();
+  }
 }
 
 TEST_F(VolumeRebuild, LeavesTheOldVolumeWhenALayerIsDamaged) {
