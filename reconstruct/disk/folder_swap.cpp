@@ -21,59 +21,100 @@ namespace fs = std::filesystem;
                     ": cannot be replaced by what was made beside it: " + std::strerror(error));
 }
 
-/// False when the file system cannot.
-bool exchange(const fs::path& fresh, const fs::path& place) {
-  if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0) {
-    return true;
-  }
-  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) {
-    fail(place, errno);
-  }
-  return false;
+[[noreturn]] void fail_to_put_back(const fs::path& old, const fs::path& place, int error) {
+  throw SampleError(place.string() + ": what was there lies in " + old.string() +
+                    " and cannot be put back: " + std::strerror(error));
 }
 
-void rename_or_fail(const fs::path& from, const fs::path& to, const fs::path& place) {
-  if (::rename(from.c_str(), to.c_str()) != 0) {
-    fail(place, errno);
-  }
+/// The number of the error; 0 when there was none.
+int renamed(const fs::path& from, const fs::path& to) {
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-void swap_in_three_steps(const fs::path& fresh, const fs::path& place) {
-  fs::path aside = fresh;
-  aside += ".old";
-  remove_folder(aside);
-  rename_or_fail(place, aside, place);
-  if (::rename(fresh.c_str(), place.c_str()) != 0) {
-    const int error = errno;
-    rename_or_fail(aside, place, place);
+int exchanged(const fs::path& a, const fs::path& b) {
+  const int result = ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE);
+  return result == 0 ? 0 : errno;
+}
+
+bool cannot_exchange(int error) {
+  return error == EINVAL || error == ENOSYS || error == ENOTSUP;
+}
+
+/// Returns where the old content of `place` is now.
+fs::path swap(const fs::path& fresh, const fs::path& place) {
+  if (const int error = exchanged(fresh, place); error == 0) {
+    return fresh;
+  } else if (!cannot_exchange(error)) {
     fail(place, error);
   }
-  rename_or_fail(aside, fresh, place);
+  const fs::path aside = name_aside(fresh);
+  remove_folder(aside);
+  if (const int error = renamed(place, aside); error != 0) {
+    fail(place, error);
+  }
+  if (const int error = renamed(fresh, place); error != 0) {
+    if (const int worse = renamed(aside, place); worse != 0) {
+      fail_to_put_back(aside, place, worse);
+    }
+    fail(place, error);
+  }
+  return aside;
 }
 
-void swap(const fs::path& fresh, const fs::path& place) {
-  if (!exchange(fresh, place)) {
-    swap_in_three_steps(fresh, place);
+void swap_back(const fs::path& old, const fs::path& fresh, const fs::path& place) {
+  int error = 0;
+  if (old == fresh) {
+    error = exchanged(fresh, place);
+  } else {
+    error = renamed(place, fresh);
+    error = error == 0 ? renamed(old, place) : error;
+  }
+  if (error != 0) {
+    fail_to_put_back(old, place, error);
   }
 }
 
 }  // namespace
 
+fs::path name_aside(const fs::path& fresh) {
+  fs::path aside = fresh;
+  aside += ".old";
+  return aside;
+}
+
 void replace_folder(const fs::path& fresh, const fs::path& place) {
   std::error_code error;
   if (!fs::exists(place, error)) {
-    rename_or_fail(fresh, place, place);
+    if (const int rename_error = renamed(fresh, place); rename_error != 0) {
+      fail(place, rename_error);
+    }
     sync_folder(place.parent_path());
     return;
   }
-  swap(fresh, place);
+  const fs::path old = swap(fresh, place);
   try {
     sync_folder(place.parent_path());
   } catch (const SampleError&) {
-    swap(fresh, place);  // what is not known to last takes nothing's place
+    swap_back(old, fresh, place);  // what is not known to last takes nothing's place
     throw;
   }
-  remove_folder(fresh);  // it has the old content now
+  remove_folder(old);
+}
+
+void settle_replaced_folder(const fs::path& fresh, const fs::path& place) {
+  const fs::path aside = name_aside(fresh);
+  std::error_code error;
+  if (!fs::exists(aside, error)) {
+    return;
+  }
+  if (fs::exists(place, error)) {
+    remove_folder(aside);
+  } else {
+    if (const int rename_error = renamed(aside, place); rename_error != 0) {
+      fail_to_put_back(aside, place, rename_error);
+    }
+    sync_folder(place.parent_path());
+  }
 }
 
 void remove_folder(const fs::path& folder) {

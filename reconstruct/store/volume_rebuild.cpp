@@ -129,6 +129,7 @@ std::int64_t rebuild_volume(const SampleFolder& sample,
   const std::int64_t layers = count_layers(sample);
   const fs::path place = sample.volume_path();
   const fs::path fresh = unfinished_volume(sample);
+  settle_replaced_folder(fresh, place);
   const std::optional<ZarrArray> array = readable_array(place);
   check_loses_no_layers(sample, place, array, layers);
   remove_folder(fresh);  // of a rebuild that was killed
@@ -149,6 +150,18 @@ std::int64_t rebuild_volume(const SampleFolder& sample,
   give_to_owner_of(sample.path(), fresh);
   replace_folder(fresh, place);
   return layers;
+}
+
+std::vector<fs::path> left_by_rebuilds(const SampleFolder& sample) {
+  std::vector<fs::path> left;
+  const fs::path fresh = unfinished_volume(sample);
+  for (const fs::path& folder : {fresh, name_aside(fresh)}) {
+    std::error_code error;
+    if (fs::exists(folder, error)) {
+      left.push_back(folder);
+    }
+  }
+  return left;
 }
 
 }  // namespace biotomy::reconstruct

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
@@ -21,5 +23,10 @@ namespace biotomy::reconstruct {
 std::int64_t rebuild_volume(const SampleFolder& sample,
                             const std::function<void(std::int64_t, std::int64_t)>& progress = {},
                             const StopRequested& stop = {});
+
+/// The folders that rebuilds which were killed have left in the sample: a volume that was not
+/// finished, and one that was to be replaced. The next rebuild puts them right. One that is at work
+/// has such a folder, too.
+std::vector<std::filesystem::path> left_by_rebuilds(const SampleFolder& sample);
 
 }  // namespace biotomy::reconstruct

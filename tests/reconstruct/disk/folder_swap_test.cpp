@@ -45,6 +45,23 @@ TEST_F(AFolderSwap, LeavesTheOldContentWhenThereIsNoNewOne) {
   EXPECT_THAT(names_in(place_), ElementsAre("old"));
 }
 
+TEST_F(AFolderSwap, ThatWasKilledBetweenItsRenamesIsTakenBack) {
+  std::filesystem::create_directory(name_aside(fresh_));
+  write_text(name_aside(fresh_) / "old", "x");
+  settle_replaced_folder(fresh_, place_);
+  EXPECT_THAT(names_in(place_), ElementsAre("old"));
+  EXPECT_THAT(names_in(folder_.path()), testing::UnorderedElementsAre("place", ".fresh"));
+}
+
+TEST_F(AFolderSwap, ThatWasKilledAfterItsRenamesIsBroughtToItsEnd) {
+  std::filesystem::rename(fresh_, place_);
+  std::filesystem::create_directory(name_aside(fresh_));
+  settle_replaced_folder(fresh_, place_);
+  settle_replaced_folder(fresh_, place_);
+  EXPECT_THAT(names_in(place_), ElementsAre("new"));
+  EXPECT_THAT(names_in(folder_.path()), ElementsAre("place"));
+}
+
 TEST_F(AFolderSwap, RemovesAFolderThatIsThereOrNot) {
   remove_folder(fresh_);
   remove_folder(fresh_);

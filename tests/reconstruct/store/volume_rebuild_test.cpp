@@ -157,6 +157,18 @@ TEST_F(VolumeRebuild, LosesNoLayersOfABandOfWhichSomeFilesAreThere) {
               AllOf(HasSubstr("000012.tif"), HasSubstr("would lose 1")));
 }
 
+TEST_F(VolumeRebuild, PutsTheVolumeBackThatOneLeftAsideWhichWasKilled) {
+  VolumeWriter(sample_, layout_).append(13, true);
+  const auto appended = volume_contents();
+  std::filesystem::rename(sample_.volume_path(), sample_.path() / ".volume.ome.zarr.partial.old");
+  EXPECT_THAT(left_by_rebuilds(sample_),
+              testing::ElementsAre(sample_.path() / ".volume.ome.zarr.partial.old"));
+  std::filesystem::remove(sample_.layer_path(13));
+  EXPECT_THAT(message_of<SampleError>([&] { rebuild_volume(sample_); }), HasSubstr("would lose 1"));
+  EXPECT_THAT(differing_files(volume_contents(), appended), testing::IsEmpty());
+  EXPECT_THAT(left_by_rebuilds(sample_), testing::IsEmpty());
+}
+
 TEST_F(VolumeRebuild, GivesWhatRootMakesToTheOwnerOfTheSample) {
   if (!tests::AnotherUser::can_be()) GTEST_SKIP() << "only root can be another user";
   ASSERT_EQ(::chown(sample_.path().c_str(), tests::AnotherUser::kNumber, 54321), 0);
