@@ -19,6 +19,7 @@
 #include "reconstruct/sample/layer_verification.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/sample/sample_growth.hpp"
+#include "reconstruct/store/volume_rebuild.hpp"
 #include "reconstruct/store/volume_verification.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"
@@ -110,6 +111,15 @@ std::vector<LayerHash> records_of(const SampleFolder& sample, Findings& findings
   return records;
 }
 
+/// What is no fault of the sample, but takes room.
+void tell_of_leftovers(const SampleFolder& sample) {
+  const bool has_volume = is_there(sample.volume_path());
+  for (const fs::path& folder : reconstruct::left_by_rebuilds(sample)) {
+    std::cout << folder.string() << ": was left by a rebuild that was killed; the next biotomy "
+              << (has_volume ? "rebuild removes it" : "rebuild puts it right") << '\n';
+  }
+}
+
 void run(const Options& options) {
   const SampleFolder sample = SampleFolder::open(options.sample);
   Findings findings;
@@ -130,6 +140,9 @@ void run(const Options& options) {
   {
     ProgressBar bar("Verifying the volume", "shards");
     shards = reconstruct::verify_volume(sample, options.deep, findings.listener(bar), growth);
+  }
+  if (!work.is_seen()) {
+    tell_of_leftovers(sample);
   }
   std::cout << "verified" << (options.deep ? " voxel for voxel" : "") << ": layer files " << layers
             << ", shards of the volume " << shards << "; "

@@ -106,5 +106,21 @@ TEST_F(VerifyCommand, FindsAJournalThatCannotBeRead) {
   EXPECT_THAT(run(), HasSubstr("2 things are wrong"));  // each is told once
 }
 
+TEST_F(VerifyCommand, NotesWhatARebuildLeftThatWasKilled) {
+  record_hashes();
+  std::filesystem::create_directory(sample_.path() / ".volume.ome.zarr.partial");
+  EXPECT_THAT(run(), AllOf(HasSubstr(".volume.ome.zarr.partial: was left"),
+                           HasSubstr("rebuild removes it"), HasSubstr("nothing is wrong")));
+  const acquisition::SampleLock rebuild(sample_.path());
+  EXPECT_THAT(run(), testing::Not(HasSubstr("partial")));  // it may be the one at work
+}
+
+TEST_F(VerifyCommand, NotesTheVolumeThatARebuildLeftAside) {
+  record_hashes();
+  std::filesystem::rename(sample_.volume_path(), sample_.path() / ".volume.ome.zarr.partial.old");
+  EXPECT_THAT(run(), AllOf(HasSubstr(".partial.old: was left"), HasSubstr("rebuild puts it right"),
+                           HasSubstr("1 thing is wrong")));
+}
+
 }  // namespace
 }  // namespace biotomy::tools
