@@ -10,6 +10,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "firmware_bridge/wire/transfer.hpp"
+
 namespace biotomy::bridge {
 
 namespace {
@@ -89,23 +91,8 @@ std::vector<std::uint16_t> levels_of(const BayerFormat& format, int black, doubl
   return levels;
 }
 
-/// The transfer function of sRGB (IEC 61966-2-1, section 5.2) for 16 bits.
-const std::vector<std::uint16_t>& srgb_curve() {
-  static const std::vector<std::uint16_t> curve = [] {
-    std::vector<std::uint16_t> values(kWhite + 1);
-    for (int i = 0; i <= kWhite; ++i) {
-      const double light = static_cast<double>(i) / kWhite;
-      const double coded =
-          light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-      values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(std::lround(coded * kWhite));
-    }
-    return values;
-  }();
-  return curve;
-}
-
 void apply_srgb(cv::Mat& image) {
-  const std::vector<std::uint16_t>& curve = srgb_curve();
+  const std::vector<std::uint16_t>& curve = srgb_tables<std::uint16_t>().value;
   cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row) {
       auto* values = image.ptr<std::uint16_t>(row);
