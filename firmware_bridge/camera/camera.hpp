@@ -5,6 +5,7 @@
 #include <string>
 
 #include "firmware_bridge/camera/frame.hpp"
+#include "firmware_bridge/wire/transfer.hpp"
 
 namespace biotomy::bridge {
 
@@ -30,8 +31,9 @@ struct CameraDescription {
   std::string model;
   int width = 0;
   int height = 0;
-  std::optional<LensRange> lens{};  ///< of a camera that can drive its lens
-  std::string correction = {};      ///< what was done to its frames, in words; empty if nothing
+  std::optional<LensRange> lens{};     ///< of a camera that can drive its lens
+  Transfer transfer = Transfer::srgb;  ///< of its frames; of a camera that doesn't tell, too
+  std::string correction = {};         ///< what was done to its frames, in words; empty if nothing
 };
 
 /// A camera that takes one still at a time. One thread owns it. Every call throws DeviceError.

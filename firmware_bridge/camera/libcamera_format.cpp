@@ -146,6 +146,10 @@ std::optional<FrameFormat> known_format(const libcamera::PixelFormat& format) {
   return std::nullopt;
 }
 
+Transfer transfer_of(const libcamera::PixelFormat& format, bool raw_is_srgb) {
+  return bayer_format(format.toString()) && !raw_is_srgb ? Transfer::linear : Transfer::srgb;
+}
+
 YuvCoding coding_of(const libcamera::StreamConfiguration& stream) {
   using libcamera::ColorSpace;
   YuvCoding coding;

@@ -11,6 +11,7 @@
 #include "firmware_bridge/camera/bayer.hpp"
 #include "firmware_bridge/camera/libcamera_camera.hpp"
 #include "firmware_bridge/camera/pixel_formats.hpp"
+#include "firmware_bridge/wire/transfer.hpp"
 
 namespace biotomy::bridge {
 
@@ -22,6 +23,11 @@ std::string model_of(const libcamera::Camera& camera);
 
 /// Our name for a pixel format of libcamera; none for one that we don't read.
 std::optional<FrameFormat> known_format(const libcamera::PixelFormat& format);
+
+/// How the values of frames in a format follow the light. Raw values are coded by us; of finished
+/// colours libcamera does not tell what its tuning made of them, and they are taken for sRGB, as
+/// viewers take them.
+Transfer transfer_of(const libcamera::PixelFormat& format, bool raw_is_srgb);
 
 /// How a YUV stream codes its colours, as far as it tells.
 YuvCoding coding_of(const libcamera::StreamConfiguration& stream);

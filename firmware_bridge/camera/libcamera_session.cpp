@@ -179,7 +179,8 @@ CameraDescription LibcameraSession::describe() const {
   return {.model = model_of(*camera_),
           .width = static_cast<int>(size.width),
           .height = static_cast<int>(size.height),
-          .lens = lens_range(camera_->controls())};
+          .lens = lens_range(camera_->controls()),
+          .transfer = transfer_of(configuration_->at(kStill).pixelFormat, raw_is_srgb_)};
 }
 
 void LibcameraSession::apply(const CameraSettings& settings) {

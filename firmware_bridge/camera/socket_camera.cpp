@@ -55,7 +55,10 @@ CameraDescription SocketCamera::describe() {
   client_.disconnect();  // what an earlier connection told may be of a rig that was restarted since
   connect(time_out_);
   const WelcomeMessage::Camera& camera = *client_.welcome().camera;
-  return {.model = camera.model, .width = camera.width, .height = camera.height};
+  return {.model = camera.model,
+          .width = camera.width,
+          .height = camera.height,
+          .transfer = camera.transfer};
 }
 
 void SocketCamera::apply(const CameraSettings& settings) {

@@ -26,6 +26,8 @@ constexpr std::array kInputs{std::pair{RigInput::estop, "estop"},
                              std::pair{RigInput::door, "door"}};
 constexpr std::array kPixelFormats{std::pair{RigPixelFormat::rgb888, "RGB888"},
                                    std::pair{RigPixelFormat::rgb161616, "RGB161616"}};
+constexpr std::array kTransfers{std::pair{Transfer::srgb, "srgb"},
+                                std::pair{Transfer::linear, "linear"}};
 
 template <class Words, class Value>
 const char* word_for(const Words& words, Value value) {
@@ -148,6 +150,7 @@ struct Codec<WelcomeMessage> {
     object["model"] = message.camera->model;
     object["width"] = message.camera->width;
     object["height"] = message.camera->height;
+    object["transfer"] = word_for(kTransfers, message.camera->transfer);
   }
   static WelcomeMessage read(Fields& fields) {
     WelcomeMessage message{.protocol = fields.integer("protocol", 0, kLargestSide)};
@@ -155,6 +158,7 @@ struct Codec<WelcomeMessage> {
       message.camera = {.model = fields.text("model"),
                         .width = fields.integer("width", 1, kLargestSide),
                         .height = fields.integer("height", 1, kLargestSide)};
+      if (fields.has("transfer")) message.camera->transfer = fields.word("transfer", kTransfers);
     }
     return message;
   }

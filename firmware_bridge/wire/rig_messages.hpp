@@ -7,6 +7,8 @@
 #include <string_view>
 #include <variant>
 
+#include "firmware_bridge/wire/transfer.hpp"
+
 namespace biotomy::bridge {
 
 // The messages of README.md, one struct each.
@@ -36,6 +38,7 @@ struct WelcomeMessage {
     std::string model;
     int width = 0;
     int height = 0;
+    Transfer transfer = Transfer::srgb;  ///< of one that doesn't tell, too
   };
   int protocol = kRigProtocol;
   std::optional<Camera> camera{};

@@ -49,7 +49,7 @@ std::optional<bridge::WelcomeMessage> CameraService::welcome() {
     return std::nullopt;
   }
   bridge::WelcomeMessage message;
-  message.camera = {model_, optics_.view.width, optics_.view.height};
+  message.camera = {model_, optics_.view.width, optics_.view.height, bridge::Transfer::linear};
   return message;
 }
 

@@ -103,6 +103,7 @@ TEST_F(TwinTest, GrindsParksAndShowsTheFaceOverItsSockets) {
   bridge::RigClient camera = client(bridge::RigService::camera);
   camera.ask(bridge::ConfigureMessage{.exposure_us = 10000}, 2s);
   EXPECT_EQ(camera.welcome().camera->width, 96);
+  EXPECT_EQ(camera.welcome().camera->transfer, bridge::Transfer::linear);
   const bridge::RigAnswer answer = camera.ask(bridge::CaptureMessage{}, 5s);
   const auto& frame = std::get<bridge::FrameMessage>(answer.message);
   EXPECT_EQ(frame.width, 96);

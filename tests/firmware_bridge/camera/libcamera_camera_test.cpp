@@ -1,7 +1,9 @@
 #include "firmware_bridge/camera/libcamera_camera.hpp"
 
 #include <gtest/gtest.h>
+#include <libcamera/formats.h>
 
+#include "firmware_bridge/camera/libcamera_format.hpp"
 #include "firmware_bridge/camera/libcamera_listing.hpp"
 #include "firmware_bridge/device_error.hpp"
 
@@ -25,6 +27,16 @@ TEST(LibcameraCamera, SaysThatThereIsNoneWhereThereIsNone) {
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("finds none on this computer"), std::string::npos);
   }
+}
+
+TEST(LibcameraFormats, OfFinishedColoursAreTakenForSrgb) {
+  using namespace libcamera::formats;
+  for (const auto& format : {BGR888, NV12, MJPEG}) {
+    EXPECT_EQ(transfer_of(format, false), Transfer::srgb) << format.toString();
+  }
+  EXPECT_EQ(transfer_of(SRGGB12_CSI2P, true), Transfer::srgb);
+  EXPECT_EQ(transfer_of(SRGGB12_CSI2P, false), Transfer::linear);
+  EXPECT_EQ(transfer_of(SBGGR10, false), Transfer::linear);
 }
 
 }  // namespace

@@ -56,6 +56,14 @@ TEST(SocketCamera, TellsWhatItIs) {
   EXPECT_EQ(description.model, "fake");
   EXPECT_EQ(description.width, 4);
   EXPECT_EQ(description.height, 2);
+  EXPECT_EQ(description.transfer, Transfer::srgb);
+}
+
+TEST(SocketCamera, TellsHowItsValuesFollowTheLight) {
+  FakeRig rig(FakeCamera{});
+  rig.welcome.camera->transfer = Transfer::linear;
+  SocketCamera camera(rig.path(), 5s);
+  EXPECT_EQ(camera.describe().transfer, Transfer::linear);
 }
 
 TEST(SocketCamera, GivesTheFrameRowByRowWithItsFacts) {

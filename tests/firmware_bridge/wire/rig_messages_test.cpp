@@ -12,6 +12,7 @@ TEST(RigMessages, ComeBackFromTheirOwnJson) {
       HelloMessage{.service = RigService::lines},
       WelcomeMessage{},
       WelcomeMessage{.camera = WelcomeMessage::Camera{"a camera", 640, 480}},
+      WelcomeMessage{.camera = WelcomeMessage::Camera{"a camera", 640, 480, Transfer::linear}},
       ConfigureMessage{.exposure_us = 1500.5, .gain = 2, .red_gain = 1.5, .blue_gain = 0.75},
       ConfiguredMessage{},
       CaptureMessage{},
@@ -52,6 +53,14 @@ TEST(RigMessages, ReadTheExamplesOfTheProtocol) {
   const auto hello =
       std::get<HelloMessage>(from_json(R"({"type":"hello","protocol":1,"service":"camera"})"));
   EXPECT_EQ(hello.service, RigService::camera);
+  const auto transfer_of = [](const std::string& fields) {
+    return std::get<WelcomeMessage>(
+               from_json(R"({"type":"welcome","protocol":1,"model":"m","width":2,"height":1)" +
+                         fields + "}"))
+        .camera->transfer;
+  };
+  EXPECT_EQ(transfer_of(""), Transfer::srgb) << "of a camera that doesn't tell";
+  EXPECT_EQ(transfer_of(R"(,"transfer":"linear")"), Transfer::linear);
 }
 
 TEST(RigMessages, RefuseWhatIsNoMessage) {
@@ -64,6 +73,7 @@ TEST(RigMessages, RefuseWhatIsNoMessage) {
         R"({"type":"hello","protocol":1.5,"service":"camera"})",
         R"({"type":"hello","protocol":1,"service":"camera"}x)",
         R"({"type":"welcome","protocol":1,"model":"m","width":0,"height":1})",
+        R"({"type":"welcome","protocol":1,"model":"m","width":2,"height":1,"transfer":"log"})",
         R"({"type":"welcome","protocol":1,"model":"m"})"}) {
     EXPECT_THROW(from_json(text), MessageError) << text;
   }
