@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/calibration/calibration_file.hpp"
+#include "acquisition/calibration/light.hpp"
 #include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/disk/sha256.hpp"
 #include "reconstruct/errors.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+constexpr const char* kLinear = "linear";
 
 std::string record_name(FieldKind kind) {
   return std::string(to_string(kind)) + ".json";
@@ -49,10 +52,10 @@ void keep_former(const fs::path& folder, FieldKind kind) {
 }
 
 ordered_json to_json(const CalibrationFrame& frame, FieldKind kind, const std::string& sha256) {
-  ordered_json record = {{"kind", to_string(kind)},  {"file", file_name(kind, sha256)},
-                         {"sha256", sha256},         {"taken_at", frame.taken_at},
-                         {"width", frame.mean.cols}, {"height", frame.mean.rows},
-                         {"bits", frame.bits},       {"frames", frame.frames}};
+  ordered_json record = {
+      {"kind", to_string(kind)},    {"file", file_name(kind, sha256)}, {"sha256", sha256},
+      {"taken_at", frame.taken_at}, {"width", frame.mean.cols},        {"height", frame.mean.rows},
+      {"bits", frame.bits},         {"frames", frame.frames},          {"transfer", kLinear}};
   record.update(taken_with(frame.settings));
   return record;
 }
@@ -88,7 +91,8 @@ std::string write_calibration_frame(const fs::path& folder, FieldKind kind,
   }
 }
 
-CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) {
+CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind,
+                                        bridge::Transfer transfer) {
   const fs::path path = folder / record_name(kind);
   const auto text = text_of(path);
   if (!text) {
@@ -99,6 +103,7 @@ CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) 
   int width = 0;
   int height = 0;
   std::string name;
+  std::string told;
   try {
     const auto record = nlohmann::json::parse(*text);
     name = record.at("file").get<std::string>();
@@ -108,6 +113,7 @@ CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) 
     height = record.at("height").get<int>();
     frame.bits = record.at("bits").get<int>();
     frame.frames = record.at("frames").get<int>();
+    told = record.value("transfer", "");
     frame.settings.exposure =
         std::chrono::microseconds(record.at("exposure_us").get<std::int64_t>());
     frame.settings.gain = record.at("gain").get<double>();
@@ -115,6 +121,10 @@ CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) 
     frame.settings.blue_gain = record.at("blue_gain").get<double>();
   } catch (const nlohmann::json::exception&) {
     throw CalibrationError(path.string() + " is not a calibration's record" + again(kind));
+  }
+  if (!told.empty() && told != kLinear) {
+    throw CalibrationError(path.string() + " holds values of the unknown transfer \"" + told +
+                           "\"" + again(kind));
   }
   if (fs::path(name).has_parent_path()) {
     throw CalibrationError(path.string() + " names a file in another folder" + again(kind));
@@ -130,6 +140,7 @@ CalibrationFrame read_calibration_frame(const fs::path& folder, FieldKind kind) 
   if (frame.mean.cols != width || frame.mean.rows != height || frame.mean.type() != CV_16UC3) {
     throw CalibrationError(path.string() + " and its image do not agree" + again(kind));
   }
+  if (told.empty()) frame.mean = light_of(frame.mean, transfer);
   return frame;
 }
 

@@ -20,7 +20,7 @@ class CalibrationError : public std::runtime_error {
 /// A frame that others are corrected by: the mean of several, and how they were taken. Only frames
 /// that are taken likewise can be corrected by it.
 struct CalibrationFrame {
-  cv::Mat mean;  ///< CV_16UC3, R G B; 65535 is full scale, whatever the frames' bits
+  cv::Mat mean;  ///< of the light, CV_16UC3, R G B; 65535 is full scale, whatever the frames' bits
   int bits = 8;  ///< of the frames, 8 or 16
   int frames = 0;
   bridge::CameraSettings settings;
@@ -44,7 +44,10 @@ std::string short_hash(const std::string& sha256);
 std::string write_calibration_frame(const std::filesystem::path& folder, FieldKind kind,
                                     const CalibrationFrame& frame);
 
-/// The one in force. Throws CalibrationError when there is none, and when it is damaged.
-CalibrationFrame read_calibration_frame(const std::filesystem::path& folder, FieldKind kind);
+/// The one in force. The mean in a record that does not tell how it follows the light is of the
+/// frames' own values, as earlier versions kept it, and `transfer` theirs. Throws CalibrationError
+/// when there is none, and when it is damaged.
+CalibrationFrame read_calibration_frame(const std::filesystem::path& folder, FieldKind kind,
+                                        bridge::Transfer transfer);
 
 }  // namespace biotomy::acquisition

@@ -26,7 +26,7 @@ bridge::CameraSettings without_lens(bridge::CameraSettings settings) {
 CalibrationFrame read_fitting(const CalibrationPlan& plan, FieldKind kind,
                               const bridge::CameraDescription& camera,
                               const bridge::CameraSettings& settings) {
-  CalibrationFrame frame = read_calibration_frame(plan.folder, kind);
+  CalibrationFrame frame = read_calibration_frame(plan.folder, kind, camera.transfer);
   const std::string name = std::string("the ") + to_string(kind) + " field";
   const std::string again =
       std::string("record it again with biotomy calibrate ") + to_string(kind);
@@ -82,11 +82,13 @@ void CorrectedCamera::apply(const bridge::CameraSettings& settings) {
                            " bits and the dark field of " + std::to_string(dark->bits) +
                            ": record both again");
   }
-  correction_ = std::make_unique<FieldCorrection>(flat ? flat->mean : cv::Mat(),
-                                                  dark ? dark->mean : cv::Mat(),
-                                                  bits_ == 16 ? CV_16UC3 : CV_8UC3);
+  correction_ = std::make_unique<FieldCorrection>(
+      flat ? flat->mean : cv::Mat(), dark ? dark->mean : cv::Mat(),
+      bits_ == 16 ? CV_16UC3 : CV_8UC3, description.transfer);
   if (flat) in_force_ = note_of(FieldKind::flat, *flat);
   if (dark) in_force_ += (in_force_.empty() ? "" : ", ") + note_of(FieldKind::dark, *dark);
+  // A sample of which earlier versions corrected the coded values must not be gone on with unseen.
+  if (description.transfer == bridge::Transfer::srgb) in_force_ += ", on the light behind sRGB";
   applied_ = asked;
 }
 

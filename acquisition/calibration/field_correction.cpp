@@ -1,6 +1,7 @@
 #include "acquisition/calibration/field_correction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -55,17 +56,44 @@ void correct_row(std::uint16_t* values, const std::uint16_t* gain, const std::ui
   }
 }
 
+/// By way of the light, of which there is as much at a time as stays in the processor's cache.
+template <typename Sample, bool kDark>
+void correct_srgb_row(Sample* values, const std::uint16_t* gain, const std::uint16_t* dark,
+                      int count) {
+  constexpr int kMost = 2048;
+  // Pointers of its own: bytes that are written could be the tables' for all the compiler knows.
+  const std::uint16_t* light_of_value = bridge::srgb_tables<Sample>().light.data();
+  const Sample* value_of_light = bridge::srgb_tables<Sample>().value.data();
+  std::array<std::uint16_t, kMost> light;
+  for (int first = 0; first < count; first += kMost) {
+    const int part = std::min(kMost, count - first);
+    for (int i = 0; i < part; ++i) light[i] = light_of_value[values[first + i]];
+    correct_row<kDark>(light.data(), gain + first, kDark ? dark + first : nullptr, part);
+    for (int i = 0; i < part; ++i) values[first + i] = value_of_light[light[i]];
+  }
+}
+
+template <typename Sample, bool kDark>
+void correct_row(bridge::Transfer transfer, Sample* values, const std::uint16_t* gain,
+                 const std::uint16_t* dark, int count) {
+  if (transfer == bridge::Transfer::srgb) {
+    correct_srgb_row<Sample, kDark>(values, gain, dark, count);
+  } else {
+    correct_row<kDark>(values, gain, dark, count);
+  }
+}
+
 template <typename Sample>
-void correct(cv::Mat& image, const cv::Mat& gain, const cv::Mat& dark) {
+void correct(cv::Mat& image, bridge::Transfer transfer, const cv::Mat& gain, const cv::Mat& dark) {
   cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
     const int count = 3 * image.cols;
     for (int y = rows.start; y < rows.end; ++y) {
       auto* values = image.ptr<Sample>(y);
       const auto* gains = gain.ptr<std::uint16_t>(y);
       if (dark.empty()) {
-        correct_row<false>(values, gains, nullptr, count);
+        correct_row<Sample, false>(transfer, values, gains, nullptr, count);
       } else {
-        correct_row<true>(values, gains, dark.ptr<std::uint16_t>(y), count);
+        correct_row<Sample, true>(transfer, values, gains, dark.ptr<std::uint16_t>(y), count);
       }
     }
   });
@@ -73,8 +101,9 @@ void correct(cv::Mat& image, const cv::Mat& gain, const cv::Mat& dark) {
 
 }  // namespace
 
-FieldCorrection::FieldCorrection(const cv::Mat& flat, const cv::Mat& dark, int type)
-    : type_(type), size_(flat.empty() ? dark.size() : flat.size()) {
+FieldCorrection::FieldCorrection(const cv::Mat& flat, const cv::Mat& dark, int type,
+                                 bridge::Transfer transfer)
+    : type_(type), transfer_(transfer), size_(flat.empty() ? dark.size() : flat.size()) {
   gain_ = cv::Mat(size_, CV_16UC3, cv::Scalar::all(kUnity));
   if (!flat.empty()) {
     cv::Mat light;
@@ -93,16 +122,17 @@ FieldCorrection::FieldCorrection(const cv::Mat& flat, const cv::Mat& dark, int t
     }
   }
   if (!dark.empty()) {
-    dark.convertTo(dark_, CV_16U, type == CV_8UC3 ? kLevel / kSixteenBitsALevel : 1.0);
+    const bool is_of_levels = type == CV_8UC3 && transfer == bridge::Transfer::linear;
+    dark.convertTo(dark_, CV_16U, is_of_levels ? kLevel / kSixteenBitsALevel : 1.0);
   }
 }
 
 void FieldCorrection::apply(cv::Mat& image) const {
   CV_Assert(image.size() == size_ && image.type() == type_);
   if (type_ == CV_16UC3) {
-    correct<std::uint16_t>(image, gain_, dark_);
+    correct<std::uint16_t>(image, transfer_, gain_, dark_);
   } else {
-    correct<std::uint8_t>(image, gain_, dark_);
+    correct<std::uint8_t>(image, transfer_, gain_, dark_);
   }
 }
 

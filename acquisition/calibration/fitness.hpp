@@ -10,7 +10,7 @@
 namespace biotomy::acquisition {
 
 // Whether frames are fit for a calibration: nothing when they are, else what is wrong with them and
-// what to do, in one sentence. Brightness is of full scale.
+// what to do, in one sentence. Brightness is the light, of full scale.
 
 /// A flat field is of an even, pale surface: bright enough, not clipped, the light not worse than
 /// four to one over the frame, and without a pattern of its own.

@@ -100,7 +100,10 @@ std::optional<std::string> FrameCalibration::poll(const std::optional<bridge::St
 void FrameCalibration::ask_frame() {
   frame_ = run_on(parts_.worker, [camera = &parts_.camera, settings = camera_.settings,
                                   time_out = camera_.capture_time_out, frames = frames_] {
-    if (frames->count() == 0) camera->apply(settings);
+    if (frames->count() == 0) {
+      *frames = MeanFrame(camera->describe().transfer);
+      camera->apply(settings);
+    }
     frames->add(capture(*camera, time_out).image);
   });
 }

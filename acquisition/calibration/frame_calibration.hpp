@@ -55,7 +55,8 @@ class FrameCalibration : public CalibrationRun {
   std::function<std::string()> utc_now_;
   TimePoint begun_;
   int taken_ = 0;
-  std::shared_ptr<MeanFrame> frames_ = std::make_shared<MeanFrame>();
+  /// The first frame's camera tells how its values follow the light.
+  std::shared_ptr<MeanFrame> frames_ = std::make_shared<MeanFrame>(bridge::Transfer::srgb);
   std::future<void> frame_;
   std::future<std::string> record_;
 };

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "acquisition/calibration/calibration_record.hpp"
+#include "acquisition/calibration/light.hpp"
 
 namespace biotomy::acquisition {
 
@@ -19,7 +20,7 @@ void MeanFrame::add(const cv::Mat& image) {
   if (image.size() != sum_.size() || image.type() != type_) {
     throw CalibrationError("the camera changed the size or the bits of its frames meanwhile");
   }
-  cv::add(sum_, image, sum_, cv::noArray(), CV_32S);
+  cv::add(sum_, light_of(image, transfer_), sum_, cv::noArray(), CV_32S);
   const double full = type_ == CV_16UC3 ? 65535.0 : 255.0;
   const int clipped = cv::countNonZero(image.reshape(1) == full);
   clipped_ = std::max(clipped_, clipped / (3.0 * static_cast<double>(image.total())));
@@ -28,7 +29,7 @@ void MeanFrame::add(const cv::Mat& image) {
 
 cv::Mat MeanFrame::mean() const {
   cv::Mat mean;
-  sum_.convertTo(mean, CV_16U, (type_ == CV_16UC3 ? 1.0 : 257.0) / count_);
+  sum_.convertTo(mean, CV_16U, 1.0 / count_);
   return mean;
 }
 

@@ -15,7 +15,8 @@ struct WhiteBalance {
 };
 
 /// The gains that make the middle half of the frames as red and as blue as it is green, when they
-/// were taken with the gains given: that half is of a neutral grey and has all three colours.
+/// were taken with the gains given, which act on the light: that half is of a neutral grey and has
+/// all three colours.
 WhiteBalance white_balance(const MeanFrame& frames, const WhiteBalance& in_force);
 
 /// Writes `white.json`: what was found, and how the frames were taken. Throws CalibrationError.

@@ -177,7 +177,11 @@ void FakeLines::set(bridge::OutputRole role, bool value) {
 
 bridge::CameraDescription FakeCamera::describe() {
   if (gone) throw DeviceError(DeviceError::Kind::disconnected, "camera: gone");
-  return {.model = "fake", .width = width, .height = height, .lens = lens};
+  return {.model = "fake",
+          .width = width,
+          .height = height,
+          .lens = lens,
+          .transfer = bridge::Transfer::linear};
 }
 
 void FakeCamera::apply(const bridge::CameraSettings& settings) {

@@ -26,6 +26,7 @@
 namespace {
 
 using namespace biotomy::acquisition;
+using biotomy::bridge::Transfer;
 
 constexpr int kWidth = 5472;
 constexpr int kHeight = 3648;
@@ -48,14 +49,18 @@ void count_pixels(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
 }
 
-/// Corrects one frame again and again: what is in it makes no difference.
-void correct_field(benchmark::State& state, int type, bool with_dark) {
-  cv::Mat image = frame(1, 2, type);
+/// Corrects copies of one frame: of another the tables' memory would be asked in another order.
+void correct_field(benchmark::State& state, int type, bool with_dark, Transfer transfer) {
+  const cv::Mat seen = frame(1, 2, type);
+  cv::Mat image = seen.clone();
   const cv::Mat flat = frame(3, 4, CV_16UC3);
   cv::Mat dark;
   if (with_dark) dark = cv::Mat(flat.size(), CV_16UC3, cv::Scalar::all(300));
-  const FieldCorrection correction(flat, dark, type);
+  const FieldCorrection correction(flat, dark, type, transfer);
   for (auto _ : state) {
+    state.PauseTiming();
+    seen.copyTo(image);
+    state.ResumeTiming();
     correction.apply(image);
     benchmark::DoNotOptimize(image.data);
   }
@@ -199,9 +204,22 @@ void assess_frame(benchmark::State& state, Content what, int type) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::RegisterBenchmark("correct/8/flat", correct_field, CV_8UC3, false)->UseRealTime();
-  benchmark::RegisterBenchmark("correct/8/both", correct_field, CV_8UC3, true)->UseRealTime();
-  benchmark::RegisterBenchmark("correct/16/both", correct_field, CV_16UC3, true)->UseRealTime();
+  benchmark::RegisterBenchmark("correct/8/flat/linear", correct_field, CV_8UC3, false,
+                               Transfer::linear)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("correct/8/both/linear", correct_field, CV_8UC3, true,
+                               Transfer::linear)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("correct/16/both/linear", correct_field, CV_16UC3, true,
+                               Transfer::linear)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("correct/8/flat/srgb", correct_field, CV_8UC3, false, Transfer::srgb)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("correct/8/both/srgb", correct_field, CV_8UC3, true, Transfer::srgb)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("correct/16/both/srgb", correct_field, CV_16UC3, true,
+                               Transfer::srgb)
+      ->UseRealTime();
   benchmark::RegisterBenchmark("rows/8", find_rows, CV_8UC3)->UseRealTime();
   benchmark::RegisterBenchmark("rows/16", find_rows, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("measures/8", measure, CV_8UC3)->UseRealTime();

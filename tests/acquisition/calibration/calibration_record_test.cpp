@@ -1,6 +1,9 @@
 #include "acquisition/calibration/calibration_record.hpp"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
 #include "tests/reconstruct/test_files.hpp"
@@ -10,6 +13,7 @@ namespace biotomy::tests {
 namespace {
 
 using namespace acquisition;
+using bridge::Transfer;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -33,7 +37,8 @@ class CalibrationRecord : public testing::Test {
 
 TEST_F(CalibrationRecord, IsReadAsItWasWritten) {
   const std::string hash = write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
-  const CalibrationFrame read = read_calibration_frame(calibrations_, FieldKind::flat);
+  const CalibrationFrame read =
+      read_calibration_frame(calibrations_, FieldKind::flat, Transfer::linear);
   EXPECT_EQ(cv::norm(read.mean, frame_of(500).mean, cv::NORM_INF), 0.0);
   EXPECT_EQ(read.settings, frame_of(500).settings);
   EXPECT_EQ(read.bits, 8);
@@ -42,13 +47,41 @@ TEST_F(CalibrationRecord, IsReadAsItWasWritten) {
   EXPECT_EQ(read.sha256, hash);
 }
 
+TEST_F(CalibrationRecord, HoldsLightWhateverTheFramesAre) {
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
+  const CalibrationFrame read =
+      read_calibration_frame(calibrations_, FieldKind::flat, Transfer::srgb);
+  EXPECT_EQ(cv::norm(read.mean, frame_of(500).mean, cv::NORM_INF), 0.0);
+}
+
+TEST_F(CalibrationRecord, OfAnEarlierVersionHoldsTheFramesOwnValues) {
+  write_calibration_frame(calibrations_, FieldKind::flat, frame_of(128.0 * 257.0));
+  const std::filesystem::path path = calibrations_ / "flat.json";
+  auto record = nlohmann::json::parse(std::ifstream(path));
+  record.erase("transfer");
+  reconstruct::write_text(path, record.dump());
+  const auto value_by = [&](Transfer transfer) {
+    return read_calibration_frame(calibrations_, FieldKind::flat, transfer)
+        .mean.at<cv::Vec3w>(3, 3)[0];
+  };
+  EXPECT_EQ(value_by(Transfer::linear), 128 * 257);
+  EXPECT_NEAR(value_by(Transfer::srgb), 0.21586 * 65535.0, 1.0);
+  record["transfer"] = "log";
+  reconstruct::write_text(path, record.dump());
+  EXPECT_THAT([&] { value_by(Transfer::srgb); },
+              ThrowsMessage<CalibrationError>(HasSubstr("unknown transfer \"log\"")));
+}
+
 TEST_F(CalibrationRecord, TakesThePlaceOfTheFormerOneAndOfNoOther) {
   write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
   write_calibration_frame(calibrations_, FieldKind::dark, frame_of(5));
   write_calibration_frame(calibrations_, FieldKind::flat, frame_of(700));
-  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat).mean.at<cv::Vec3w>(0, 0)[0],
+  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat, Transfer::linear)
+                .mean.at<cv::Vec3w>(0, 0)[0],
             700);
-  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::dark).mean.at<cv::Vec3w>(0, 0)[0], 5);
+  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::dark, Transfer::linear)
+                .mean.at<cv::Vec3w>(0, 0)[0],
+            5);
 }
 
 TEST_F(CalibrationRecord, IsKeptWhenAnotherTakesItsPlaceAndCanBeRestored) {
@@ -59,7 +92,8 @@ TEST_F(CalibrationRecord, IsKeptWhenAnotherTakesItsPlaceAndCanBeRestored) {
   std::filesystem::copy_file(calibrations_ / ("flat-" + short_hash(hash) + ".json"),
                              calibrations_ / "flat.json",
                              std::filesystem::copy_options::overwrite_existing);
-  const CalibrationFrame restored = read_calibration_frame(calibrations_, FieldKind::flat);
+  const CalibrationFrame restored =
+      read_calibration_frame(calibrations_, FieldKind::flat, Transfer::linear);
   EXPECT_EQ(restored.sha256, hash);
   EXPECT_EQ(restored.mean.at<cv::Vec3w>(0, 0)[0], 500);
   EXPECT_EQ(restored.settings, frame_of(500).settings);
@@ -75,7 +109,9 @@ TEST_F(CalibrationRecord, TakesThePlaceOfOneThatIsDamaged) {
 }
 
 TEST_F(CalibrationRecord, ThatIsMissingOrDamagedIsRefusedWithWhatToDo) {
-  const auto read = [&] { read_calibration_frame(calibrations_, FieldKind::flat); };
+  const auto read = [&] {
+    read_calibration_frame(calibrations_, FieldKind::flat, Transfer::linear);
+  };
   EXPECT_THAT(read, ThrowsMessage<CalibrationError>(HasSubstr("biotomy calibrate flat")));
   const std::string hash = write_calibration_frame(calibrations_, FieldKind::flat, frame_of(500));
   const auto image = calibrations_ / ("flat-" + hash.substr(0, 12) + ".tif");
@@ -94,7 +130,8 @@ TEST_F(CalibrationRecord, ThatCannotBeStoredLeavesTheFormerOneInForce) {
   std::filesystem::create_directories(calibrations_ / "dark.json" / "x");
   EXPECT_THROW(write_calibration_frame(calibrations_, FieldKind::dark, frame_of(5)),
                CalibrationError);
-  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat).mean.at<cv::Vec3w>(0, 0)[0],
+  EXPECT_EQ(read_calibration_frame(calibrations_, FieldKind::flat, Transfer::linear)
+                .mean.at<cv::Vec3w>(0, 0)[0],
             500);
 }
 

@@ -17,14 +17,19 @@ using testing::ThrowsMessage;
 struct UnevenCamera : bridge::Camera {
   cv::Size size{40, 30};
   int type = CV_8UC3;
+  bridge::Transfer transfer = bridge::Transfer::linear;
+  int left = 164;
+  int right = 84;
 
-  bridge::CameraDescription describe() override { return {"uneven", size.width, size.height}; }
+  bridge::CameraDescription describe() override {
+    return {.model = "uneven", .width = size.width, .height = size.height, .transfer = transfer};
+  }
   void apply(const bridge::CameraSettings&) override {}
   bridge::Frame capture(std::chrono::milliseconds) override {
     bridge::Frame frame;
     const double unit = type == CV_16UC3 ? 257.0 : 1.0;
-    frame.image = cv::Mat(size, type, cv::Scalar::all(164 * unit));
-    frame.image.colRange(size.width / 2, size.width).setTo(cv::Scalar::all(84 * unit));
+    frame.image = cv::Mat(size, type, cv::Scalar::all(left * unit));
+    frame.image.colRange(size.width / 2, size.width).setTo(cv::Scalar::all(right * unit));
     return frame;
   }
 };
@@ -63,12 +68,36 @@ TEST_F(CorrectedFrames, AreEven) {
   EXPECT_EQ(image.at<cv::Vec3b>(3, 35), cv::Vec3b(120, 120, 120));
 }
 
+TEST_F(CorrectedFrames, AreEvenInTheLightBehindTheCurve) {
+  record();
+  camera_.transfer = bridge::Transfer::srgb;
+  camera_.left = 210;   // what sRGB makes of 164
+  camera_.right = 155;  // and of 84
+  CorrectedCamera camera = corrected(true, true);
+  camera.apply(settings_);
+  const cv::Mat image = camera.capture({}).image;
+  EXPECT_NEAR(image.at<cv::Vec3b>(3, 3)[0], 182, 1);  // what it makes of 120
+  EXPECT_NEAR(image.at<cv::Vec3b>(3, 35)[0], 182, 1);
+}
+
+/// A sample must not be gone on with by a field that is applied in another way.
+TEST_F(CorrectedFrames, SayThatTheLightBehindTheCurveWasCorrected) {
+  record();
+  CorrectedCamera camera = corrected(true, true);
+  camera.apply(settings_);
+  EXPECT_THAT(camera.describe().correction, testing::Not(HasSubstr("sRGB")));
+  camera_.transfer = bridge::Transfer::srgb;
+  camera.apply(settings_);
+  EXPECT_THAT(camera.describe().correction, HasSubstr("on the light behind sRGB"));
+}
+
 TEST_F(CorrectedFrames, SayWhatTheyWereCorrectedBy) {
   record();
   CorrectedCamera camera = corrected(true, true);
   EXPECT_EQ(camera.describe().correction, "");
   camera.apply(settings_);
-  const std::string hash = read_calibration_frame(folder_.path(), FieldKind::flat).sha256;
+  const std::string hash =
+      read_calibration_frame(folder_.path(), FieldKind::flat, camera_.transfer).sha256;
   EXPECT_THAT(
       camera.describe().correction,
       testing::AllOf(HasSubstr("flat field " + hash.substr(0, 12)), HasSubstr("dark field")));

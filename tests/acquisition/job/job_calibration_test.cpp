@@ -23,9 +23,12 @@ struct CardCamera : bridge::Camera {
   bridge::CameraSettings applied{};
   int captures = 0;
   bool gone = false;
+  bridge::Transfer transfer = bridge::Transfer::linear;
 
   explicit CardCamera(const FakeLines& rig_lines) : lines(rig_lines) {}
-  bridge::CameraDescription describe() override { return {"card", 64, 48}; }
+  bridge::CameraDescription describe() override {
+    return {.model = "card", .width = 64, .height = 48, .transfer = transfer};
+  }
   void apply(const bridge::CameraSettings& settings) override { applied = settings; }
   bridge::Frame capture(std::chrono::milliseconds) override {
     if (gone) {
@@ -65,7 +68,7 @@ TEST_F(JobCalibration, RecordsAFlatFieldWithTheLampOn) {
   EXPECT_TRUE(calibrate(OperatorCommand::calibrate_flat).accepted);
   EXPECT_EQ(calibration().progress, Progress::done) << calibration().sentence;
   EXPECT_THAT(calibration().sentence, HasSubstr("set calibration.flat = true"));
-  const CalibrationFrame flat = read_calibration_frame(folder(), FieldKind::flat);
+  const CalibrationFrame flat = read_calibration_frame(folder(), FieldKind::flat, card.transfer);
   EXPECT_EQ(flat.frames, 16);
   EXPECT_EQ(flat.bits, 8);
   EXPECT_EQ(flat.settings, bench.settings.camera.settings);
@@ -79,7 +82,9 @@ TEST_F(JobCalibration, RecordsAFlatFieldWithTheLampOn) {
 TEST_F(JobCalibration, RecordsADarkFieldWithTheLampOff) {
   calibrate(OperatorCommand::calibrate_dark);
   EXPECT_EQ(calibration().progress, Progress::done) << calibration().sentence;
-  EXPECT_EQ(read_calibration_frame(folder(), FieldKind::dark).mean.at<cv::Vec3w>(5, 5)[1], 3 * 257);
+  EXPECT_EQ(
+      read_calibration_frame(folder(), FieldKind::dark, card.transfer).mean.at<cv::Vec3w>(5, 5)[1],
+      3 * 257);
 }
 
 TEST_F(JobCalibration, FindsTheGainsThatMakeACardNeutral) {
@@ -90,6 +95,18 @@ TEST_F(JobCalibration, FindsTheGainsThatMakeACardNeutral) {
   const auto record = nlohmann::json::parse(file);
   EXPECT_NEAR(record.at("red_gain").get<double>(), 1.25, 1e-4);
   EXPECT_EQ(record.at("taken_with").at("exposure_us"), 12345);
+}
+
+TEST_F(JobCalibration, IsOfTheLightBehindTheCurveOfTheCamera) {
+  card.transfer = bridge::Transfer::srgb;
+  calibrate(OperatorCommand::calibrate_flat);
+  EXPECT_EQ(calibration().progress, Progress::done) << calibration().sentence;
+  const CalibrationFrame flat =
+      read_calibration_frame(folder(), FieldKind::flat, bridge::Transfer::srgb);
+  EXPECT_NEAR(flat.mean.at<cv::Vec3w>(5, 5)[0] / 65535.0, 0.18782, 1e-4);
+  EXPECT_NEAR(flat.mean.at<cv::Vec3w>(5, 5)[1] / 65535.0, 0.30499, 1e-4);
+  calibrate(OperatorCommand::calibrate_white);
+  EXPECT_THAT(calibration().sentence, HasSubstr("set camera.red_gain = 1.62"));
 }
 
 TEST_F(JobCalibration, OfFramesThatAreNotFitRecordsNothing) {
