@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace biotomy::acquisition {
 namespace {
@@ -19,46 +20,55 @@ constexpr int kFirstWait = 5;  // layers: the drift is not known yet
 FocusMemory::FocusMemory(const FocusSettings& settings, bridge::Micrometres layer_thickness)
     : settings_(settings),
       layer_thickness_(layer_thickness),
-      wait_(std::min(kFirstWait, settings.every_layers)) {}
+      known_{.last = {}, .wait = std::min(kFirstWait, settings.every_layers)} {}
 
 void FocusMemory::remember(const FocusedLayer& focused) {
-  if (last_ && focused.layer > last_->layer) {
-    const auto layers = static_cast<double>(focused.layer - last_->layer);
+  if (!kept_) kept_ = known_;
+  if (known_.last && focused.layer > known_.last->layer) {
+    const auto layers = static_cast<double>(focused.layer - known_.last->layer);
     const bridge::Micrometres deviation = focused.position - predicted(focused.layer);
     const bool is_expected =
         std::abs(deviation.value) <= kAsExpected * settings_.depth_of_field.value;
-    wait_ = std::clamp(is_expected ? 2 * wait_ : wait_ / 2, 1, settings_.every_layers);
+    known_.wait =
+        std::clamp(is_expected ? 2 * known_.wait : known_.wait / 2, 1, settings_.every_layers);
     // A leap is a new beginning, not a drift.
     if (std::abs(deviation.value) <= settings_.largest_change.value) {
-      drift_ = drift_ + (kLearnt / layers) * deviation;
+      known_.drift = known_.drift + (kLearnt / layers) * deviation;
     }
   }
-  last_ = focused;
-  fell_ = false;
+  known_.last = focused;
+  known_.fell = false;
+}
+
+bool FocusMemory::take_back() {
+  if (!kept_) return false;
+  known_ = *std::exchange(kept_, std::nullopt);
+  return true;
 }
 
 void FocusMemory::accepted(double sharpness_ratio) {
-  fell_ = sharpness_ratio < settings_.search_below_ratio;
+  known_.fell = sharpness_ratio < settings_.search_below_ratio;
 }
 
 const char* FocusMemory::why_search(std::int64_t layer) const {
-  if (!last_) return "no focus is known yet";
-  if (fell_) return "the sharpness fell";
-  if (layer - last_->layer >= wait_) return "the last search is long ago";
+  if (!known_.last) return "no focus is known yet";
+  if (known_.fell) return "the sharpness fell";
+  if (layer - known_.last->layer >= known_.wait) return "the last search is long ago";
   return nullptr;
 }
 
 bridge::Micrometres FocusMemory::predicted(std::int64_t layer) const {
-  if (!last_) return settings_.start;
-  return last_->position + static_cast<double>(layer - last_->layer) * (layer_thickness_ + drift_);
+  if (!known_.last) return settings_.start;
+  return known_.last->position +
+         static_cast<double>(layer - known_.last->layer) * (layer_thickness_ + known_.drift);
 }
 
 SearchPlan FocusMemory::plan(std::int64_t layer, bool anywhere) const {
   SearchPlan plan{.predicted = predicted(layer), .step = settings_.step, .largest_change = {}};
-  if (!last_) return plan;
-  plan.step = std::max(plan.step, last_->step);
+  if (!known_.last) return plan;
+  plan.step = std::max(plan.step, known_.last->step);
   if (!anywhere) {
-    const std::int64_t layers = std::max<std::int64_t>(1, layer - last_->layer);
+    const std::int64_t layers = std::max<std::int64_t>(1, layer - known_.last->layer);
     plan.largest_change = static_cast<double>(layers) * settings_.largest_change;
   }
   return plan;

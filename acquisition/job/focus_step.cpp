@@ -103,7 +103,8 @@ void FocusStep::end_search(TimePoint now) {
   stands_at_ = search_->stands_at();
   report();
   if (const std::optional<Autofocus::Found>& found = search_->found()) {
-    // The frame that confirmed it was taken there.
+    // The frame that confirmed it was taken there. Whether it stays remembered is decided by the
+    // layer's frame.
     memory_.remember({.layer = layer_,
                       .position = found->position,
                       .sharpness = search_->points().back().sharpness,

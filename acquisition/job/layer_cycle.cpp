@@ -50,13 +50,14 @@ LayerCycle::LayerCycle(const JobSettings& settings, const CycleParts& parts,
   expectation_.sharpness = start.recalled.sharpness;
   expectation_.surfaces = start.recalled.surfaces;
   // What was remembered of the focus is in doubt, and with its peak there is something to compare.
-  focus_again_ = flagged_in_a_row_ > 0;
+  focus_again_ = flagged_in_a_row_ > 0 || start.journal.focus_in_doubt;
   if (const auto& focus = start.journal.last_focus) {
     focus_memory_.remember({.layer = focus->layer,
                             .position = focus->column,
                             .sharpness = focus->sharpness,
                             .measures = nullptr,
                             .step = {}});
+    focus_memory_.keep();
   }
 }
 
@@ -80,6 +81,8 @@ void LayerCycle::begin(JobState step, const bridge::StageStatus& status, TimePoi
       parts_.lines.set(bridge::OutputRole::lamp, true);
       break;
     case JobState::focusing:
+      // What the layer's last search found gave no frame that is good enough.
+      if (focus_memory_.take_back()) focus_again_ = true;
       focus_.begin(layer_,
                    std::exchange(focus_again_, false)
                        ? SearchReason{"the quality ladder asked for it", true}
@@ -151,9 +154,7 @@ void LayerCycle::begin_capture(const bridge::StageStatus& status) {
 }
 
 void LayerCycle::begin_assessment() {
-  if (const auto peak = focus_memory_.peak_measures()) {
-    expectation_.sharpness.found_focus(focus_memory_.peak_layer(), peak);
-  }
+  expectation_.sharpness.found_focus(focus_memory_.peak_layer(), focus_memory_.peak_measures());
   expectation_.layer = layer_;
   expectation_.asked_at = in_hand_->asked_at;
   assessment_ = parts_.keeper.ask([frame = in_hand_, expectation = expectation_,
@@ -186,6 +187,7 @@ std::optional<JobEvent> LayerCycle::judge() {
   if (lacks_only_sharpness_ &&
       (!best_rejected_ || in_hand_->assessment.sharpness > best_rejected_->assessment.sharpness)) {
     std::swap(best_rejected_, in_hand_);
+    focus_of_best_ = focus_memory_;
   }
   // Of two rejected frames the worse is let go, with its record; the better may still be accepted.
   if (in_hand_) reject(*in_hand_);
@@ -197,6 +199,7 @@ std::optional<JobEvent> LayerCycle::judge() {
   // What the last frame shows is how things are now, whatever the frames before it were like.
   if (lacks_only_sharpness_ && may_flag()) {
     in_hand_ = std::exchange(best_rejected_, nullptr);
+    focus_memory_ = *focus_of_best_;
     in_hand_->assessment.verdict = Verdict::accepted_with_flag;
     remember_judgement();
     return JobEvent::frame_accepted;
@@ -238,6 +241,7 @@ void LayerCycle::begin_storing() {
 std::optional<JobEvent> LayerCycle::layer_stored() {
   const Stored stored = stored_.get();
   disk_left_layers_ = stored.disk_left_layers;
+  focus_memory_.keep();
   if (const auto& ratio = in_hand_->assessment.sharpness_to_peak) focus_memory_.accepted(*ratio);
   expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
   const bool flagged = in_hand_->assessment.verdict == Verdict::accepted_with_flag;

@@ -115,6 +115,7 @@ class LayerCycle {
   std::future<JudgedFrame> capture_;
   std::shared_ptr<JudgedFrame> in_hand_;
   std::shared_ptr<JudgedFrame> best_rejected_;
+  std::optional<FocusMemory> focus_of_best_;  ///< what was known of the focus when it was taken
   std::future<AssessedFrame> assessment_;
   std::future<Stored> stored_;
   std::optional<CommittedLayer> last_committed_;

@@ -124,8 +124,10 @@ struct JournalSummary {
   int flagged_in_a_row = 0;   ///< layers up to the last committed one
   std::string last_event_at;  ///< of a job, not of a daemon's start; ISO 8601, UTC; empty if none
   std::optional<GrindRow> last_grind;
-  std::optional<FocusRow> last_focus;  ///< the last that was found; without its points
-  std::vector<Constant> constants;     ///< by their names; none in journals of older daemons
+  /// The last that was found and led to a stored layer; without its points.
+  std::optional<FocusRow> last_focus;
+  bool focus_in_doubt = false;  ///< searches for the first layer that is not committed gave none
+  std::vector<Constant> constants;  ///< by their names; none in journals of older daemons
 };
 
 }  // namespace biotomy::acquisition

@@ -58,9 +58,16 @@ JournalSummary summary_of(SQLite::Database& database, const std::filesystem::pat
               "state = 'faulted') ORDER BY id DESC LIMIT 1), '')")
           .getString();
 
-  SQLite::Statement focus(database,
-                          "SELECT layer, why, column_um, sharpness FROM focus_sweeps "
-                          "WHERE found = 1 ORDER BY id DESC LIMIT 1");
+  // A layer's last frame was taken after the last of its searches: a job that searched for a layer
+  // and stored no frame of it searches again. A frame that was stored with a flag need not be the
+  // last.
+  SQLite::Statement focus(
+      database,
+      "SELECT focus_sweeps.layer, why, focus_sweeps.column_um, sharpness FROM focus_sweeps "
+      "JOIN layers ON layers.layer = focus_sweeps.layer WHERE found = 1 AND "
+      "focus_sweeps.id IN (SELECT max(id) FROM focus_sweeps GROUP BY layer) AND "
+      "attempt_id = (SELECT id FROM attempts WHERE attempts.layer = layers.layer "
+      "ORDER BY attempt DESC LIMIT 1) ORDER BY focus_sweeps.id DESC LIMIT 1");
   if (focus.executeStep()) {
     summary.last_focus = FocusRow{.layer = focus.getColumn(0).getInt64(),
                                   .why = focus.getColumn(1).getString(),
@@ -70,6 +77,10 @@ JournalSummary summary_of(SQLite::Database& database, const std::filesystem::pat
                                   .points = {},
                                   .lean = {}};
   }
+
+  SQLite::Statement doubt(database, "SELECT 1 FROM focus_sweeps WHERE layer > ? LIMIT 1");
+  doubt.bind(1, summary.last_committed);
+  summary.focus_in_doubt = doubt.executeStep();
 
   SQLite::Statement constants(database, "SELECT name, value FROM constants ORDER BY name");
   while (constants.executeStep()) {

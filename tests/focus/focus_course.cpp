@@ -64,9 +64,11 @@ class Bench {
     if (frame.verdict != Verdict::accepted) {
       ++outcome.taken_again;
       outcome.misses_um.pop_back();
+      memory_.take_back();
       frame = focus(layer, {"the quality ladder asked for it", true}, outcome);
     }
     record_.accept(frame.measures);
+    memory_.keep();
     if (frame.sharpness_to_peak) memory_.accepted(*frame.sharpness_to_peak);
   }
 

@@ -55,6 +55,34 @@ TEST(FocusMemory, SearchesTheMoreSeldomTheBetterItKnowsWhereTheFocusIs) {
   EXPECT_EQ(wait_of(memory, 30), 2);
 }
 
+TEST(FocusMemory, TakesBackWhatSearchesFoundWhoseFrameWasNotKept) {
+  FocusMemory memory(settings(), {20.0});
+  memory.remember(focused(0, 640.0));
+  EXPECT_EQ(memory.predicted(0).value, 640.0) << "it counts for its own layer";
+  memory.keep();
+  EXPECT_FALSE(memory.take_back());
+
+  FocusedLayer window = focused(5, 1500.0);
+  window.step = {80.0};
+  window.measures = std::make_shared<const FrameMeasures>();
+  memory.remember(window);
+  memory.remember(focused(5, 1510.0));
+  EXPECT_TRUE(memory.take_back());
+  EXPECT_EQ(memory.predicted(5).value, 740.0);
+  EXPECT_EQ(memory.plan(5, true).step.value, 20.0);
+  EXPECT_EQ(memory.peak_measures(), nullptr);
+  EXPECT_EQ(wait_of(memory, 0), 5);
+  EXPECT_FALSE(memory.take_back());
+}
+
+TEST(FocusMemory, KnowsNothingAgainWhenTheFirstSearchIsTakenBack) {
+  FocusMemory memory(settings(), {20.0});
+  memory.remember(focused(1, 1500.0));
+  EXPECT_TRUE(memory.take_back());
+  EXPECT_FALSE(memory.knows_focus());
+  EXPECT_EQ(memory.predicted(1).value, 500.0);
+}
+
 TEST(FocusMemory, FollowsADriftThatTheSearchesFound) {
   FocusMemory memory(settings(), {20.0});
   double position = 640.0;

@@ -78,6 +78,58 @@ TEST(FocusStep, SaysThatASearchFoundTheFocusFarFromWhereItWasExpected) {
             1);
 }
 
+/// Two layers on, the ladder's first search finds a window instead of the face.
+void find_a_window(JobBench& bench) {
+  bench.start_daemon();
+  bench.start_job();
+  ASSERT_TRUE(bench.reach_committed(2)) << bench.alarm();
+  bench.camera.black_frames = 2;
+  const auto third_attempt = [&] {
+    return bench.board.look()->attempt == 2 && bench.state() == JobState::focusing;
+  };
+  for (int i = 0; i < 5000 && !third_attempt(); ++i) bench.tick();
+  bench.camera.column_to_face_um = 200.0;
+  bench.worker.at_edges = [&bench] {
+    const bool found = bench.count_rows("focus_sweeps", "layer = 3 AND found = 1") > 0;
+    if (found) bench.camera.column_to_face_um = 400.0;
+  };
+  for (int i = 0; i < 5000 && bench.camera.column_to_face_um < 400.0; ++i) bench.tick();
+  ASSERT_EQ(bench.count_rows("focus_sweeps", "layer = 3 AND abs(column_um - 840) < 5"), 1);
+}
+
+/// Searches for layer 3 that looked on both sides of its face at first.
+std::int64_t searches_around_the_face(const JobBench& bench) {
+  return bench.count_rows("focus_sweeps",
+                          "layer = 3 AND found = 1 AND abs(column_um - 640) < 5 AND "
+                          "points ->> '$[0][0]' < 640 AND json_array_length(points) < 8");
+}
+
+TEST(FocusStep, ForgetsWhatASearchFoundWhoseFrameIsRejected) {
+  JobBench bench;
+  ASSERT_NO_FATAL_FAILURE(find_a_window(bench));
+  ASSERT_TRUE(bench.reach_committed(3)) << bench.alarm();
+  EXPECT_EQ(bench.count_rows("attempts", "layer = 3 AND attempt = 3 AND slug = 'blurred'"), 1);
+  EXPECT_EQ(searches_around_the_face(bench), 1);
+}
+
+TEST(FocusStep, ForgetsItAlsoOverAPauseAndARestart) {
+  for (const bool restarts : {false, true}) {
+    JobBench bench;
+    bench.settings.ladder.max_attempts = 3;
+    ASSERT_NO_FATAL_FAILURE(find_a_window(bench));
+    ASSERT_TRUE(bench.reach(JobState::paused)) << bench.alarm();
+    if (restarts) {
+      bench.start_daemon();
+      bench.start_job();
+    } else {
+      EXPECT_TRUE(bench.say(OperatorCommand::resume).accepted);
+    }
+    ASSERT_TRUE(bench.reach(JobState::done)) << bench.alarm();
+    EXPECT_EQ(searches_around_the_face(bench), 1);
+    EXPECT_EQ(bench.count_rows("attempts", "layer = 3"), 4) << "the first frame is sharp again";
+  }
+}
+
 TEST(FocusStep, ComesToEveryFrameFromBelow) {
   JobBench bench;
   std::vector<double> column;

@@ -122,6 +122,42 @@ TEST_F(LayerJournalTest, RemembersAcrossARestart) {
   EXPECT_EQ(summary.last_focus->column.value, 612.5);
 }
 
+TEST_F(LayerJournalTest, RemembersTheLastFocusThatLedToAStoredLayer) {
+  LayerJournal journal(path);
+  const auto search = [&](std::int64_t layer, double column_um, bool found) {
+    FocusRow row{.layer = layer, .why = "", .column = {column_um}, .found = found, .points = {}};
+    journal.record_focus(row, kAt);
+  };
+  const auto known = [&] {
+    const auto focus = journal.summary().last_focus;
+    return focus ? focus->column.value : 0.0;
+  };
+  search(1, 500.0, true);
+  search(1, 510.0, true);
+  EXPECT_EQ(known(), 0.0);
+  EXPECT_TRUE(journal.summary().focus_in_doubt);
+  journal.commit_layer(attempt(1, 1, Verdict::accepted), 1, kAt);
+  EXPECT_EQ(known(), 510.0);
+  EXPECT_FALSE(journal.summary().focus_in_doubt);
+
+  search(2, 900.0, true);
+  search(2, 530.0, false);  // then the focus was followed
+  journal.commit_layer(attempt(2, 1, Verdict::accepted), 1, kAt);
+  EXPECT_EQ(known(), 510.0);
+
+  search(3, 910.0, true);
+  journal.record_attempt(attempt(3, 1, Verdict::rejected));
+  EXPECT_EQ(known(), 510.0);
+  EXPECT_TRUE(journal.summary().focus_in_doubt);
+  journal.commit_layer(attempt(3, 2, Verdict::accepted_with_flag), 1, kAt);
+  EXPECT_EQ(known(), 910.0);
+
+  search(4, 550.0, true);
+  journal.record_attempt(attempt(4, 2, Verdict::rejected));
+  journal.commit_layer(attempt(4, 1, Verdict::accepted_with_flag), 1, kAt);
+  EXPECT_EQ(known(), 910.0) << "the frame may have been taken before the search";
+}
+
 TEST_F(LayerJournalTest, CountsTheLastLayersThatHaveAFlag) {
   LayerJournal journal(path);
   const auto commit = [&](std::int64_t layer, Verdict verdict) {
