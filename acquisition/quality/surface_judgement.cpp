@@ -22,7 +22,11 @@ constexpr std::size_t kLeastCells = 200;
 void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
                  const QualityThresholds& thresholds, Judgement& judgement) {
   const std::optional<Shift> shift = measure_shift(now.border, surfaces.surface()->border);
-  if (!shift) return;
+  if (!shift) {
+    judgement.leave_open("too little grain to tell where the block lies beside layer " +
+                         std::to_string(surfaces.layer()) + "'s");
+    return;
+  }
   const std::string moved =
       "the block lies %.2f pixels beside where it lay in layer " +
       std::to_string(surfaces.layer()) +

@@ -12,6 +12,7 @@ namespace {
 
 using namespace acquisition;
 using testing::HasSubstr;
+using testing::Not;
 
 const cv::Scalar kChip(206, 214, 206);  // as the twin's: frosted casting material
 
@@ -104,6 +105,20 @@ TEST(SurfaceJudgement, SeesABlockThatMoved) {
   EXPECT_NEAR(value_of(moved, "shift_x"), 5.0, 0.4);
   EXPECT_NEAR(value_of(moved, "shift_y"), -2.0, 0.4);
   EXPECT_EQ(watch.judge(watch.camera.photograph(60.0, 0.5, 0.5)).verdict, Verdict::accepted);
+}
+
+TEST(SurfaceJudgement, SaysSoWhenItCannotTellWhereTheBlockLies) {
+  SurfaceWatch watch;
+  const auto noise = [](std::uint64_t seed) {
+    cv::Mat image(512, 512, CV_8UC3);
+    cv::RNG(seed).fill(image, cv::RNG::NORMAL, 100.0, 3.0);
+    return image;
+  };
+  EXPECT_THAT(watch.accept(noise(1)).reason, Not(HasSubstr("where the block lies")));
+  const Assessment second = watch.judge(noise(2));
+  EXPECT_FALSE(is_judged(second, "shift"));
+  EXPECT_EQ(second.verdict, Verdict::accepted);
+  EXPECT_THAT(second.reason, HasSubstr("too little grain to tell where the block lies"));
 }
 
 TEST(SurfaceJudgement, JudgesNothingWithoutALayerBefore) {
