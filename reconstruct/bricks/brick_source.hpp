@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -28,6 +29,10 @@ class BrickSource {
   virtual std::array<int, 3> brick_shape() const = 0;  ///< in voxels, in the order z, y, x
   virtual int levels() const = 0;                      ///< at least 1
   virtual const PyramidLevel& level(int number) const = 0;
+
+  /// Layers of level 0, from the first on, that hold colours; those behind them are fill value. A
+  /// voxel of a coarser level is the mean of those of its layers that are present.
+  virtual std::int64_t layers_present() const = 0;
 
   /// How many bytes of bricks may be held: who needs more at once asks for them in parts.
   virtual std::size_t capacity_bytes() const = 0;

@@ -53,6 +53,9 @@ class VolumeBricks final : public BrickSource {
   std::array<int, 3> brick_shape() const override { return volume_.layout().chunk; }
   int levels() const override { return volume_.levels(); }
   const PyramidLevel& level(int number) const override { return volume_.level(number); }
+  std::int64_t layers_present() const override {
+    return tail_ != nullptr ? tail_->layers_present() : volume_.layers_present();
+  }
   std::size_t capacity_bytes() const override { return cache_.capacity_bytes(); }
   std::vector<TexelBrick> bricks(int level, std::span<const ChunkIndex> wanted,
                                  const PlaneReach& plane) override;

@@ -16,29 +16,56 @@ std::array<int, 3> last_voxel(const PyramidLevel& level) {
           static_cast<int>(level.size.z - 1)};
 }
 
-bool is_whole(double number) {
-  return number == std::floor(number);
+/// The layers that are ground. Where there is none all is black, the first layer too: it may be
+/// taken for one.
+std::int64_t ground_layers(const BrickSource& source) {
+  return std::max(source.layers_present(), std::int64_t{1});
 }
 
-/// A position that does not change along the row and is off the border is on it: the border's
-/// colour goes on there.
-void keep_inside(VoxelRow& place, const std::array<int, 3>& last) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (place.step[axis] == 0.0) {
-      place.start[axis] = std::clamp(place.start[axis], 0.0, static_cast<double>(last[axis]));
-    }
-  }
+/// The last voxel of a level that a ground layer has a part in. Its centre lies up to half a voxel
+/// before the newest face: mixed with the next, the face would be darkened by what is not ground.
+std::array<int, 3> newest_voxel(const BrickSource& source, int number) {
+  const PyramidLevel& level = source.level(number);
+  std::array<int, 3> newest = last_voxel(level);
+  newest[2] = static_cast<int>((ground_layers(source) - 1) / level.factor.z);
+  return newest;
+}
+
+ColumnRange common(const ColumnRange& a, const ColumnRange& b) {
+  const int first = std::clamp(a.first, b.first, b.last);
+  return {first, std::clamp(a.last, first, b.last)};
+}
+
+bool is_whole(double number) {
+  return number == std::floor(number);
 }
 
 }  // namespace
 
 PictureRow::PictureRow(const BrickSource& source, int level, const PixelGrid& grid, int number)
-    : row(number),
-      inside(columns_inside(voxel_row(grid, source.cuboid(), number), {0, grid.columns},
-                            source.cuboid().size)),
-      place(voxel_row(grid, source.level(level), number)) {
-  keep_inside(place, last_voxel(source.level(level)));
+    : row(number), columns{0, grid.columns}, place(voxel_row(grid, source.level(level), number)) {
+  const VoxelRow in_cuboid = voxel_row(grid, source.cuboid(), number);
+  GridSize size = source.cuboid().size;
+  inside = columns_inside(in_cuboid, columns, size);
+  size.z = ground_layers(source);
+  ground = columns_inside(in_cuboid, inside, size);
+  set_border(last_voxel(source.level(level)));
+}
+
+PictureRow PictureRow::piece(const ColumnRange& part) const {
+  PictureRow result = *this;
+  result.columns = common(columns, part);
+  result.inside = common(inside, part);
+  result.ground = common(ground, part);
+  return result;
+}
+
+void PictureRow::set_border(const std::array<int, 3>& last) {
+  border = last;
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (place.step[axis] == 0.0) {
+      place.start[axis] = std::clamp(place.start[axis], 0.0, static_cast<double>(border[axis]));
+    }
     on_centres[axis] = is_whole(place.start[axis]) && is_whole(place.step[axis]);
   }
 }
@@ -56,7 +83,8 @@ Support support_of(Interpolation kind) {
 }
 
 // A texel of the support is up to its shift, or the texels above, away from the pixel; which may
-// have been moved to the border from up to half a voxel beyond it, in a coarser level.
+// have been moved to the border, or from the newest face to the last voxel that has a part of it,
+// from up to half a voxel beyond, in a coarser level.
 PlaneReach plane_reach(const BrickSource& source, int level, const PixelGrid& grid,
                        Interpolation kind) {
   constexpr double kBeyondBorder = 0.5;
@@ -81,11 +109,11 @@ TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, con
       support_(support_of(kind)),
       blocks_(source.brick_shape(), source.bits()),
       shape_{source.brick_shape()[2], source.brick_shape()[1], source.brick_shape()[0]},
-      last_(last_voxel(source.level(level))),
-      rows_(rows.begin(), rows.end()) {
-  for (PictureRow& row : rows_) {
-    row.inside.first = std::clamp(row.inside.first, tile.columns.first, tile.columns.last);
-    row.inside.last = std::clamp(row.inside.last, row.inside.first, tile.columns.last);
+      last_(last_voxel(source.level(level))) {
+  const std::array<int, 3> newest = newest_voxel(source, level);
+  rows_.reserve(rows.size());
+  for (const PictureRow& row : rows) {
+    add_pieces(row.piece(tile.columns), newest);
   }
   set_box(kind);
   if (kind == Interpolation::linear) {
@@ -95,6 +123,24 @@ TilePlan::TilePlan(const BrickSource& source, int level, Interpolation kind, con
   for (const PictureRow& row : rows_) {
     if (row.inside.first < row.inside.last) {
       need_supports(row);
+    }
+  }
+}
+
+// The row's pixels above the newest face are those from one of its ends on.
+void TilePlan::add_pieces(const PictureRow& row, const std::array<int, 3>& newest) {
+  const int face = row.ground.first > row.inside.first ? row.ground.first : row.ground.last;
+  const bool passes = row.inside.first < face && face < row.inside.last;
+  const int end = passes ? face : row.columns.last;
+  for (const ColumnRange& part :
+       {ColumnRange{row.columns.first, end}, ColumnRange{end, row.columns.last}}) {
+    if (part.first == part.last) {
+      continue;
+    }
+    rows_.push_back(row.piece(part));
+    PictureRow& piece = rows_.back();
+    if (piece.ground.first < piece.ground.last) {
+      piece.set_border(newest);
     }
   }
 }
@@ -112,8 +158,8 @@ void TilePlan::set_box(Interpolation kind) {
       const double last = row.place.at(static_cast<int>(axis), row.inside.last - 1);
       const int least = static_cast<int>(std::floor(std::min(first, last)));
       const int most = static_cast<int>(std::floor(std::max(first, last)));
-      low[axis] = std::min(low[axis], std::clamp(least, 0, last_[axis]));
-      high[axis] = std::max(high[axis], std::clamp(most, 0, last_[axis]));
+      low[axis] = std::min(low[axis], std::clamp(least, 0, row.border[axis]));
+      high[axis] = std::max(high[axis], std::clamp(most, 0, row.border[axis]));
     }
   }
   const int margin = support_.width();
@@ -146,7 +192,7 @@ RowPath TilePlan::path_of(const PictureRow& row) const {
     path.axes[axis] = {static_cast<std::int32_t>((first - base) * kUnit),
                        static_cast<std::int32_t>(std::lround(step * kUnit)),
                        static_cast<int>(base) - box_voxel,
-                       last_[axis] - box_voxel,
+                       row.border[axis] - box_voxel,
                        -box_voxel,
                        shape_[axis],
                        slot_stride,
@@ -204,8 +250,8 @@ void TilePlan::need_supports(const PictureRow& row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int middle = support.first[axis] + support_.below;
       const bool mixes = !row.on_centres[axis];
-      bricks[axis] = {brick_of(axis, mixes ? support.first[axis] : middle),
-                      brick_of(axis, mixes ? middle + support_.above : middle)};
+      bricks[axis] = {brick_of(row, axis, mixes ? support.first[axis] : middle),
+                      brick_of(row, axis, mixes ? middle + support_.above : middle)};
     }
     if (bricks == before) {
       continue;
@@ -222,17 +268,18 @@ void TilePlan::need_supports(const PictureRow& row) {
   }
 }
 
-int TilePlan::brick_of(std::size_t axis, int voxel) const {
-  return std::clamp(voxel, 0, last_[axis]) / shape_[axis] - first_brick_[axis];
+/// Beyond the border: the border's.
+int TilePlan::brick_of(const PictureRow& row, std::size_t axis, int voxel) const {
+  return std::clamp(voxel, 0, row.border[axis]) / shape_[axis] - first_brick_[axis];
 }
 
 PixelSupport TilePlan::support_at(const PictureRow& row, int column) const {
   PixelSupport support;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double place = std::clamp(row.place.at(static_cast<int>(axis), column), 0.0,
-                                    static_cast<double>(last_[axis]));
+                                    static_cast<double>(row.border[axis]));
     support.first[axis] =
-        std::min(static_cast<int>(place + support_.shift), last_[axis]) - support_.below;
+        std::min(static_cast<int>(place + support_.shift), row.border[axis]) - support_.below;
     support.part[axis] = std::min(static_cast<float>(place - static_cast<int>(place)), kBelowOne);
   }
   return support;

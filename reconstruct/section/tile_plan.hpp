@@ -37,11 +37,14 @@ Support support_of(Interpolation kind);
 PlaneReach plane_reach(const BrickSource& source, int level, const PixelGrid& grid,
                        Interpolation kind);
 
-/// A row of the picture among the voxels of a level.
+/// A row of the picture, or a piece of it, among the voxels of a level.
 struct PictureRow {
   int row = 0;
-  ColumnRange inside;                ///< columns in the cuboid; of a tile's rows, also in the tile
+  ColumnRange columns;               ///< that it fills: with background where it is not inside
+  ColumnRange inside;                ///< of these, those in the cuboid
+  ColumnRange ground;                ///< of these, those no deeper than the newest layer
   VoxelRow place;                    ///< in voxels of the level
+  std::array<int, 3> border{};       ///< the last voxel, beyond which its colour goes on: x, y, z
   std::array<bool, 3> on_centres{};  ///< all pixels lie on voxel centres along this axis
 
   /// Whether the pixels lie along x from one voxel's centre to the next's.
@@ -51,6 +54,12 @@ struct PictureRow {
 
   PictureRow() = default;
   PictureRow(const BrickSource& source, int level, const PixelGrid& grid, int number);
+
+  /// What of it lies in the columns of `part`.
+  PictureRow piece(const ColumnRange& part) const;
+
+  /// A position that does not change along the row and is off the border is on it from now on.
+  void set_border(const std::array<int, 3>& last);
 };
 
 /// The support of one pixel.
@@ -69,6 +78,9 @@ class TilePlan {
 
   const Tile& tile() const { return tile_; }
   const Support& support() const { return support_; }
+
+  /// Pieces of the rows of the tile, one after the other: one that passes the newest face is parted
+  /// there, so that a piece lies above it or below.
   const std::vector<PictureRow>& rows() const { return rows_; }
 
   /// The bricks that are needed, each once.
@@ -89,13 +101,14 @@ class TilePlan {
   const TexelBlocks& blocks() const { return blocks_; }
 
  private:
+  void add_pieces(const PictureRow& row, const std::array<int, 3>& newest);
   void set_box(Interpolation kind);
   RowPath path_of(const PictureRow& row) const;
   void need_linear();
   void need(const SupportBricks& bricks);
   void need_supports(const PictureRow& row);
   void need(int x, int y, int z);
-  int brick_of(std::size_t axis, int voxel) const;  // beyond the border: the border's
+  int brick_of(const PictureRow& row, std::size_t axis, int voxel) const;
 
   Tile tile_;
   Support support_;

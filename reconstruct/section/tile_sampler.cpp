@@ -41,9 +41,9 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
       bricks_[slot] = texels != nullptr ? texels : fill_value_.data();
     }
   }
-  const ColumnRange columns = plan.tile().columns;
+  const ColumnRange& widest = plan.tile().columns;
   for (RowPlaces& places : places_) {
-    places.linear.resize(static_cast<std::size_t>(columns.last - columns.first));
+    places.linear.resize(static_cast<std::size_t>(widest.last - widest.first));
   }
   const std::vector<PictureRow>& rows = plan.rows();
   for (std::size_t i = 0; i <= rows.size(); ++i) {
@@ -60,12 +60,12 @@ void TileSampler<Level>::fill(const TilePlan& plan, std::span<const std::byte* c
     }
     const PictureRow& row = rows[i - 1];
     auto* out = picture.ptr<Level>(row.row - first_row);
-    paint(out + 3 * std::ptrdiff_t{columns.first}, row.inside.first - columns.first);
+    paint(out + 3 * std::ptrdiff_t{row.columns.first}, row.inside.first - row.columns.first);
     if (inside_count(row) > 0) {
       sample_row(plan, row, places_[(i - 1) % 2], ahead,
                  out + 3 * std::ptrdiff_t{row.inside.first});
     }
-    paint(out + 3 * std::ptrdiff_t{row.inside.last}, columns.last - row.inside.last);
+    paint(out + 3 * std::ptrdiff_t{row.inside.last}, row.columns.last - row.inside.last);
   }
 }
 
@@ -162,7 +162,8 @@ void TileSampler<Level>::place_supports(const TilePlan& plan, const PictureRow& 
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (int j = 0; j < width; ++j) {
         const int voxel = at.first[axis] + (row.on_centres[axis] ? plan.support().below : j);
-        support[axis][static_cast<std::size_t>(j)] = plan.places()[axis].of(voxel);
+        support[axis][static_cast<std::size_t>(j)] =
+            plan.places()[axis].of(std::min(voxel, row.border[axis]));
       }
     }
     for (const VoxelPlaces::Place& z : support[2]) {

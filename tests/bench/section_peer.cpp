@@ -58,6 +58,7 @@ class BricksInMemory final : public BrickSource {
   std::array<int, 3> brick_shape() const override { return {kSide, kSide, kSide}; }
   int levels() const override { return 1; }
   const PyramidLevel& level(int) const override { return level_; }
+  std::int64_t layers_present() const override { return cuboid_.size.z; }
   std::size_t capacity_bytes() const override { return std::size_t{1} << 40; }
   void expect(int, std::span<const ChunkIndex>, const PlaneReach&) override {}
 

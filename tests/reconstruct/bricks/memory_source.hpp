@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <set>
 #include <span>
@@ -25,12 +26,13 @@
 namespace biotomy::tests {
 
 /// A volume in memory. Knobs, to be turned before its levels are asked for: its shape, its colours,
-/// which chunks were never written, whether it has coarser levels.
+/// how many layers there are, which chunks were never written, whether it has coarser levels.
 struct MemorySource final : reconstruct::BrickSource {
   reconstruct::Cuboid box{{40, 30, 20}, {10.0, 10.0, 10.0}};
   std::array<int, 3> chunk_size{8, 8, 8};  ///< z, y, x
   int bit_count = 8;
-  bool pyramid = false;  ///< the coarser levels, too, that a store of it would have
+  bool pyramid = false;        ///< the coarser levels, too, that a store of it would have
+  std::optional<int> present;  ///< layers, unless all of them; at least 1
   /// The level of colour c at voxel (x, y, z).
   std::function<int(int x, int y, int z, int c)> voxel = [](int, int, int, int) { return 0; };
   std::set<reconstruct::ChunkIndex> never_written;
@@ -46,6 +48,7 @@ struct MemorySource final : reconstruct::BrickSource {
   const reconstruct::PyramidLevel& level(int number) const override {
     return all_levels().at(static_cast<std::size_t>(number));
   }
+  std::int64_t layers_present() const override { return present.value_or(box.size.z); }
   std::size_t capacity_bytes() const override { return capacity; }
   void expect(int /*level*/, std::span<const reconstruct::ChunkIndex> /*soon*/,
               const reconstruct::PlaneReach& /*plane*/) override {}
@@ -66,9 +69,13 @@ struct MemorySource final : reconstruct::BrickSource {
   int most() const { return bit_count == 8 ? 255 : 65535; }
 
   /// The level of colour c at a voxel of a level; those of coarser levels are means of the level
-  /// before, as the store defines them.
+  /// before, as the store defines them. 0 where no layer is present.
   int voxel_of(int level, int x, int y, int z, int c) {
-    return level == 0 ? voxel(x, y, z, c) : value(layers_of(level), x, y, z, c);
+    if (level == 0) {
+      return z < layers_present() ? voxel(x, y, z, c) : 0;
+    }
+    const Layers& layers = layers_of(level);
+    return z < static_cast<int>(layers.size()) ? value(layers, x, y, z, c) : 0;
   }
 
  private:
@@ -101,7 +108,7 @@ struct MemorySource final : reconstruct::BrickSource {
 
   Layers finest_layers() const {
     Layers layers;
-    for (int z = 0; z < box.size.z; ++z) {
+    for (int z = 0; z < layers_present(); ++z) {
       layers.emplace_back(static_cast<int>(box.size.y), static_cast<int>(box.size.x),
                           bit_count == 8 ? CV_8UC3 : CV_16UC3);
       for (int y = 0; y < box.size.y; ++y) {

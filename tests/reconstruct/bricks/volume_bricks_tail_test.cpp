@@ -256,6 +256,73 @@ TEST_P(VolumeWithATail, PaintsWhatADamagedLayerTakesAlongWhenThatIsTolerated) {
 INSTANTIATE_TEST_SUITE_P(, VolumeWithATail, testing::Values(8, 16),
                          [](const auto& bits) { return std::to_string(bits.param) + "Bits"; });
 
+/// A block of which few layers are ground, beside one that was no deeper. Of either the pictures
+/// must be the same down to the newest face.
+class PartlyGroundBlock : public testing::TestWithParam<int> {
+ protected:
+  static constexpr std::size_t kCacheBytes = 100'000'000;
+
+  SampleFolder block(const char* name, int depth) const {
+    return sample_with_layers(folder_ / name, {128, 128, depth}, 8, GetParam(), {10, 10, 10});
+  }
+
+  void expect_the_pictures_of_a_shallow_block(VolumeBricks& deep) {
+    const SampleFolder sample = block("shallow", GetParam());
+    VolumeWriter(sample, {}).append(GetParam(), true);
+    const Volume volume = Volume::of_sample(sample);
+    VolumeBricks shallow(volume, kCacheBytes);
+    ASSERT_EQ(deep.layers_present(), GetParam());
+    ASSERT_EQ(deep.levels(), 3);
+    const Vector3 newest{0, 640, 10.0 * (GetParam() - 1)};
+    for (const Vector3& normal : {Vector3{0, 0, 1}, Vector3{0, 1, 0}, Vector3{0, 3, 1}}) {
+      for (const Interpolation kind :
+           {Interpolation::nearest, Interpolation::linear, Interpolation::cubic}) {
+        for (const double pixel : {10.0, 14.0, 20.0, 40.0, 80.0}) {
+          const Plane plane = Plane::from_normal(normal, newest);
+          SectionRequest asked{plane, section_basis(BasisKind::layer, plane), {}};
+          asked.style.interpolation = kind;
+          asked.style.pixel = pixel;
+          const cv::Mat expected = cut_section(shallow, asked).image;
+          const cv::Mat image = cut_section(deep, asked).image;
+          ASSERT_EQ(image.cols, expected.cols);
+          ASSERT_GE(image.rows, expected.rows);
+          // The planes of both blocks are the same but for the last bits of their corners.
+          EXPECT_LE(cv::norm(image.rowRange(0, expected.rows), expected, cv::NORM_INF), 1.0)
+              << normal.y << normal.z << " " << static_cast<int>(kind) << " " << pixel;
+          if (image.rows > expected.rows) {
+            EXPECT_EQ(cv::norm(image.rowRange(image.rows / 2, image.rows), cv::NORM_INF), 0.0)
+                << "what is not ground is black";
+          }
+        }
+      }
+    }
+  }
+
+  tests::TemporaryFolder folder_;
+};
+
+TEST_P(PartlyGroundBlock, IsNotDarkenedAboveItsNewestFaceWhereItIsReadFromImages) {
+  const SampleFolder sample = block("deep", 128);
+  const Volume volume = Volume::of_sample(sample);
+  ASSERT_EQ(volume.layers_present(), 0);
+  const LayerTail tail(sample, volume);
+  VolumeBricks bricks(volume, kCacheBytes, {}, &tail);
+  expect_the_pictures_of_a_shallow_block(bricks);
+}
+
+TEST_P(PartlyGroundBlock, IsNotDarkenedAboveItsNewestFaceWhereTheVolumeOfAnAbortedJobHoldsIt) {
+  const SampleFolder sample = block("deep", 128);
+  VolumeWriter(sample, {}).append(GetParam(), true);
+  const Volume volume = Volume::of_sample(sample);
+  VolumeBricks bricks(volume, kCacheBytes);
+  expect_the_pictures_of_a_shallow_block(bricks);
+}
+
+// Whole voxels of each level, and such that some of its last voxel is not ground.
+INSTANTIATE_TEST_SUITE_P(, PartlyGroundBlock, testing::Values(8, 7, 5), [](const auto& layers) {
+  return std::to_string(layers.param) + "Layers";
+});
+
 TEST(BricksOfASample, GivesAColourForWhatIsDamagedWhenItIsToleratedAndCountsEachChunkOnce) {
   const TemporaryFolder folder;
   const SampleFolder sample = noise_sample(folder);

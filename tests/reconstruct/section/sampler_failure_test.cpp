@@ -35,6 +35,7 @@ struct SourceThatFailsLater final : BrickSource {
   int bits() const override { return volume.bits(); }
   int levels() const override { return volume.levels(); }
   const PyramidLevel& level(int number) const override { return volume.level(number); }
+  std::int64_t layers_present() const override { return volume.layers_present(); }
   std::size_t capacity_bytes() const override { return volume.capacity_bytes(); }
   void expect(int, std::span<const ChunkIndex>, const PlaneReach&) override {}
 

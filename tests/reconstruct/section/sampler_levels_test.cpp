@@ -39,6 +39,23 @@ TEST(SamplerOfAPyramid, MixesTheLevelsThatALargePixelIsMadeOf) {
   }
 }
 
+TEST(SamplerOfAPyramid, OfABlockThatIsBeingGroundDarkensNothingAboveTheNewestFace) {
+  for (const int present : {1, 18, 25, 40}) {
+    MemorySource source;
+    source.box = {{97, 83, 41}, {5.0, 5.0, 9.0}};
+    source.pyramid = true;
+    source.present = present;
+    source.voxel = noise(source.box.size, source.most(), 26);
+    for (const BasisKind basis : {BasisKind::layer, BasisKind::xz}) {
+      for (const Interpolation kind :
+           {Interpolation::linear, Interpolation::nearest, Interpolation::cubic}) {
+        const Agreement agreement = agreement_on_random_planes(source, basis, kind, 27, {1.0, 5.0});
+        EXPECT_LE(agreement.worst, kind == Interpolation::nearest ? 0 : 1) << present;
+      }
+    }
+  }
+}
+
 TEST(SamplerOfAPyramid, APixelOfTheSizeOfAVoxelStaysExactWhereThereIsAPyramid) {
   MemorySource source;
   source.pyramid = true;

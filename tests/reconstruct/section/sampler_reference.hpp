@@ -43,7 +43,8 @@ inline double keys(double distance) {  // Keys 1981, equation 15
 }
 
 /// The definitions of the interpolations, voxel by voxel in double precision. Where a level has no
-/// voxel the border's colour goes on.
+/// voxel the border's colour goes on; for points no deeper than the newest layer, also where no
+/// layer is present.
 struct Reference {
   MemorySource& source;
   Interpolation kind = Interpolation::linear;
@@ -72,7 +73,10 @@ struct Reference {
     const std::array<double, 3> place{from_origin.x / level.spacing.x,
                                       from_origin.y / level.spacing.y,
                                       from_origin.z / level.spacing.z};
-    const std::array<std::int64_t, 3> size{level.size.x, level.size.y, level.size.z};
+    std::array<std::int64_t, 3> size{level.size.x, level.size.y, level.size.z};
+    if (point.z / source.box.spacing.z < static_cast<double>(source.layers_present() - 1) + 1e-6) {
+      size[2] = (source.layers_present() + level.factor.z - 1) / level.factor.z;
+    }
     std::array<int, 3> middle{};
     std::array<std::array<double, 4>, 3> weight{};  // of voxels middle − 1 to middle + 2
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -106,7 +110,8 @@ struct Reference {
   }
 };
 
-// A centre this near to the border, in voxels, may be rounded to either side of it.
+// A centre this near to the border or to the newest face, in voxels, may be rounded to either side
+// of it.
 inline bool near_the_border(const MemorySource& source, const Vector3& point) {
   const Vector3 far = source.box.extent();
   const Vector3 spacing = source.box.spacing;
@@ -114,8 +119,9 @@ inline bool near_the_border(const MemorySource& source, const Vector3& point) {
     const double outside = std::max(-place, place - last) / voxel;
     return std::abs(outside - 1e-6) < 1e-9;
   };
+  const double newest = static_cast<double>(source.layers_present() - 1) * spacing.z;
   return near(point.x, far.x, spacing.x) || near(point.y, far.y, spacing.y) ||
-         near(point.z, far.z, spacing.z);
+         near(point.z, far.z, spacing.z) || near(point.z, newest, spacing.z);
 }
 
 inline Vector3 centre(const PixelGrid& grid, int column, int row) {

@@ -47,13 +47,17 @@ struct Planned {
         plan(from, number, interpolation, part, rows) {}
 
   int side(std::size_t axis) const { return source.chunk_size[2 - axis]; }
-  int last(std::size_t axis) const {
-    const GridSize& size = source.level(level).size;
-    return static_cast<int>((axis == 0 ? size.x : axis == 1 ? size.y : size.z) - 1);
-  }
-  ColumnRange inside(const PictureRow& row) const {
-    const int first = std::clamp(row.inside.first, tile.columns.first, tile.columns.last);
-    return {first, std::clamp(row.inside.last, first, tile.columns.last)};
+  /// The border of a pixel: one that is no deeper than the newest layer has it there.
+  int last(std::size_t axis, const PictureRow& row, int column) const {
+    const PyramidLevel& pyramid = source.level(level);
+    const GridSize& size = pyramid.size;
+    if (axis < 2) {
+      return static_cast<int>((axis == 0 ? size.x : size.y) - 1);
+    }
+    const double layer = voxel_row(grid, source.box, row.row).at(2, column);
+    const bool is_ground = layer < static_cast<double>(source.layers_present() - 1) + 1e-6;
+    return static_cast<int>(is_ground ? (source.layers_present() - 1) / pyramid.factor.z
+                                      : size.z - 1);
   }
 
  private:
@@ -139,6 +143,9 @@ void for_random_plans(const Check& check) {
       source.bit_count = bits;
       source.pyramid = true;
       std::mt19937 random(seed++);
+      if (bits == 8) {
+        source.present = 1 + static_cast<int>(random() % static_cast<unsigned>(volume.size.z));
+      }
       for (int i = 0; i < 90; ++i) {
         const SectionBasis axes = axes_of(i, random);
         const std::array<double, 6> pixels{
@@ -165,10 +172,12 @@ void for_random_plans(const Check& check) {
   }
 }
 
-/// The bricks of one axis that a pixel's colour is made of, by the definition of the interpolation.
+/// The bricks of one axis that the colour of a pixel, or of what lies `aside` of it, is made of, by
+/// the definition of the interpolation.
 std::set<int> bricks_along(const Planned& planned, const PictureRow& row, std::size_t axis,
-                           double place) {
-  const int last = planned.last(axis);
+                           int column, double aside) {
+  const int last = planned.last(axis, row, column);
+  const double place = row.place.at(static_cast<int>(axis), column) + aside;
   const double inside = std::clamp(place, 0.0, static_cast<double>(last));
   const bool nearest = planned.kind == Interpolation::nearest;
   const int middle = static_cast<int>(std::floor(nearest ? inside + 0.5 : inside));
@@ -205,15 +214,13 @@ struct TouchedBricks {
 
 TouchedBricks touched_by(const Planned& planned) {
   TouchedBricks touched;
-  for (const PictureRow& row : planned.rows) {
-    const ColumnRange inside = planned.inside(row);
-    for (int column = inside.first; column < inside.last; ++column) {
+  for (const PictureRow& row : planned.plan.rows()) {
+    for (int column = row.inside.first; column < row.inside.last; ++column) {
       std::array<std::set<int>, 3> certainly;
       std::array<std::set<int>, 3> perhaps;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double place = row.place.at(static_cast<int>(axis), column);
-        const std::set<int> below = bricks_along(planned, row, axis, place - seam(planned.kind));
-        perhaps[axis] = bricks_along(planned, row, axis, place + seam(planned.kind));
+        const std::set<int> below = bricks_along(planned, row, axis, column, -seam(planned.kind));
+        perhaps[axis] = bricks_along(planned, row, axis, column, seam(planned.kind));
         for (const int brick : below) {
           if (perhaps[axis].contains(brick)) {
             certainly[axis].insert(brick);
@@ -263,7 +270,7 @@ TEST(TilePlan, LaysARowsPathWhereItsPixelsLie) {
           const double voxel = at.near_brick * planned.side(axis) + at.near - along.first;
           const double place =
               std::clamp(row.place.at(static_cast<int>(axis), row.inside.first + pixel), 0.0,
-                         static_cast<double>(planned.last(axis)));
+                         static_cast<double>(planned.last(axis, row, row.inside.first + pixel)));
           error += std::abs(voxel + at.part - place);
         }
         ASSERT_LT(error, 3.0 * kFixedSeam);
@@ -290,7 +297,7 @@ TEST(TilePlan, FindsASupportsVoxelsAmongItsBricks) {
         std::array<int, 3> voxel{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double place = std::clamp(row.place.at(static_cast<int>(axis), column), 0.0,
-                                          static_cast<double>(planned.last(axis)));
+                                          static_cast<double>(planned.last(axis, row, column)));
           const int middle = support.first[axis] + plan.support().below;
           // Of a pixel on a voxel's centre rounding may say that it lies just before the centre.
           ASSERT_LE(std::abs(place + plan.support().shift - middle - 0.5), 0.5 + kSeam);
@@ -298,7 +305,7 @@ TEST(TilePlan, FindsASupportsVoxelsAmongItsBricks) {
           ASSERT_LT(support.part[axis], 1.0F);
           // The far corner of the support; where all pixels lie on centres, the voxel itself.
           voxel[axis] = std::clamp(middle + (row.on_centres[axis] ? 0 : plan.support().above), 0,
-                                   planned.last(axis));
+                                   planned.last(axis, row, column));
           far[axis] = plan.places()[axis].of(voxel[axis]);
           ASSERT_EQ(far[axis].texel, voxel[axis] % planned.side(axis));
           ASSERT_EQ(far[axis].offset, plan.blocks().along(axis, far[axis].texel));
