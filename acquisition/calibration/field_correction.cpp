@@ -64,7 +64,7 @@ void correct_srgb_row(Sample* values, const std::uint16_t* gain, const std::uint
   // Pointers of its own: bytes that are written could be the tables' for all the compiler knows.
   const std::uint16_t* light_of_value = bridge::srgb_tables<Sample>().light.data();
   const Sample* value_of_light = bridge::srgb_tables<Sample>().value.data();
-  std::array<std::uint16_t, kMost> light;
+  std::array<std::uint16_t, kMost> light{};
   for (int first = 0; first < count; first += kMost) {
     const int part = std::min(kMost, count - first);
     for (int i = 0; i < part; ++i) light[i] = light_of_value[values[first + i]];

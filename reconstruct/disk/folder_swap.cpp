@@ -47,7 +47,7 @@ fs::path swap(const fs::path& fresh, const fs::path& place) {
   } else if (!cannot_exchange(error)) {
     fail(place, error);
   }
-  const fs::path aside = name_aside(fresh);
+  fs::path aside = name_aside(fresh);
   remove_folder(aside);
   if (const int error = renamed(place, aside); error != 0) {
     fail(place, error);

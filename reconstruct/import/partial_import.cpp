@@ -109,8 +109,8 @@ bool PartialImport::take_up(const SampleDescription& description, const json& as
 }
 
 json PartialImport::begun_request() const {
-  const json begun = json::parse(std::ifstream(folder_ / kRequestName, std::ios::binary), nullptr,
-                                 /*allow_exceptions=*/false);
+  json begun = json::parse(std::ifstream(folder_ / kRequestName, std::ios::binary), nullptr,
+                           /*allow_exceptions=*/false);
   if (!begun.is_object()) {
     throw SampleError((folder_ / kRequestName).string() +
                       ": is damaged; give --restart to begin anew");

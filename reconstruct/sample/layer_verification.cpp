@@ -67,7 +67,7 @@ std::map<std::string, std::string> by_file(const std::vector<LayerHash>& records
 /// Of the files, which are in order, that of the deepest layer; empty when none is a layer's.
 std::string deepest_of(const std::vector<std::string>& files, const SampleFolder& sample) {
   for (std::int64_t layer = sample.description().cuboid.size.z; layer >= 1; --layer) {
-    const std::string name = sample.layer_path(layer).lexically_relative(sample.path()).string();
+    std::string name = sample.layer_path(layer).lexically_relative(sample.path()).string();
     if (std::binary_search(files.begin(), files.end(), name)) {
       return name;
     }

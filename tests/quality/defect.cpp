@@ -9,9 +9,6 @@ constexpr double kNever = -1.0;  // no strength of it is harmless
 
 constexpr double kGoalOfBlur = 0.99;
 
-// A part may show casting material alone, which hardly tells.
-constexpr double kGoalOfParts = 0.8;
-
 constexpr std::array kKinds{
     DefectKind{.defect = Defect::defocus,
                .name = "defocus",
@@ -197,17 +194,6 @@ constexpr std::array kKinds{
                .weight = 1,
                .slugs = {"shaded", "uneven-light"},
                .metric = "shade"},
-    DefectKind{.defect = Defect::part_blurred,
-               .name = "blurred in part",
-               .unit = "% of the contrast at half Nyquist, on 15 to 50 % of the area",
-               .least = 1.0,
-               .harmless = 3.0,
-               .harmful = 40.0,
-               .most = 95.0,
-               .weight = 2,
-               .slugs = {"blurred", "smeared"},
-               .metric = "blurred_part",
-               .goal = kGoalOfParts},
 };
 
 }  // namespace

@@ -27,7 +27,6 @@ enum class Defect {
   part_unchanged,
   shift,
   shadow,
-  part_blurred,
 };
 
 /// A defect, the strengths in which it is made, and what an assessment should make of them.

@@ -163,8 +163,7 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
   Setting setting = well(clean);
   sim::Scene& scene = setting.scene;
   switch (defect) {
-    case Defect::defocus:
-    case Defect::part_blurred: {
+    case Defect::defocus: {
       const double spread_pixels = std::sqrt(-std::log(1.0 - part));
       const double confusion_um = 4.0 * spread_pixels * settings_.pixel_um;
       setting.defocus_um = drawn_.sign() * confusion_um / (2.0 * optics_.lens.numerical_aperture);
@@ -222,16 +221,10 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
   }
   made.contrast = contrast(setting);
   made.frame = photograph(setting);
-  if (defect == Defect::part_blurred) {
-    const cv::Mat mask = part_of_frame(drawn_.between(0.15, 0.5));
-    const bridge::Frame sharp = photograph(well(clean));
-    sharp.image.copyTo(made.frame.image, ~mask);
-  }
   spoil(made);
   if (defect == Defect::clipped) {
     made.strength = 100.0 * (clipped_share(made.frame.image) - clipped_share(accepted_.image));
-  } else if (defect == Defect::defocus || defect == Defect::smear ||
-             defect == Defect::part_blurred) {
+  } else if (defect == Defect::defocus || defect == Defect::smear) {
     made.strength = 100.0 * (1.0 - made.contrast);
   }
   made.demand = demand_of(kind, made.strength);
