@@ -36,7 +36,7 @@ TileChange change_of_tile(const FrameMeasures& frame, References references, std
   double weights = 0.0;
   for (const BandPair& pair : kBandPairs) {
     const double certain = certainty(references, number, pair, pixels);
-    const auto found = change(tile, references, number, pair, &both_axes);
+    const auto found = change_of_quotient(tile, references, number, pair, &both_axes);
     if (certain <= 0.0 || !found) continue;
     sum += certain * pair.effect * *found;
     weights += certain * pair.effect * pair.effect;

@@ -58,13 +58,13 @@ TileChanges changes_of(const FrameMeasures& frame, References references, const 
   TileChanges changes;
   for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
     const TileMeasures& tile = frame.tiles[i];
-    const double alike = likeness(tile, references, i);
+    const double alike = likeness_of_detail(tile, references, i);
     const double certain =
         certainty(references, i, pair, frame.grid.tile(static_cast<int>(i)).area());
     if (alike < kLeastLikeness || certain <= 0.0) continue;
-    const auto all = change(tile, references, i, pair, &both_axes);
-    const auto x = change(tile, references, i, pair, &along_x);
-    const auto y = change(tile, references, i, pair, &along_y);
+    const auto all = change_of_quotient(tile, references, i, pair, &both_axes);
+    const auto x = change_of_quotient(tile, references, i, pair, &along_x);
+    const auto y = change_of_quotient(tile, references, i, pair, &along_y);
     if (!all || !x || !y) continue;
     const double weight = alike * certain;
     changes.both.push_back({*all, weight});

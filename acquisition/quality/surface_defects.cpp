@@ -163,11 +163,10 @@ SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& no
   const cv::Mat cells = surface_scale(without_light(now.thumbnail, factor));
   const cv::Mat outside = outside_of_nearby(cells, surface_scale(before.thumbnail));
   const cv::Mat unknown = KnownColours(record.colours()).unknown_in(cells);
-  const cv::Mat light_grid = now.light / factor;
-  const cv::Mat frost = veiled(light_grid, before.light);
-  const cv::Mat shade = shaded(light_grid, before.light);
+  const cv::Mat in_light_of_before = now.light / factor;
+  const cv::Mat frost = veiled(in_light_of_before, before.light);
+  const cv::Mat shade = shaded(in_light_of_before, before.light);
   const cv::Mat specks = specks_of(outside);
-  const cv::Mat casting = casting_in(now, record);
   cv::Mat frosted;
   cv::resize(frost, frosted, cells.size(), 0.0, 0.0, cv::INTER_NEAREST);
 
@@ -188,7 +187,7 @@ SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& no
           .frost = cv::countNonZero(frost) / static_cast<double>(frost.total()),
           .glare = glare / all,
           .shade = cv::countNonZero(shade) / static_cast<double>(shade.total()),
-          .arrived = cv::countNonZero(outside & ~specks & ~casting) / all};
+          .arrived = cv::countNonZero(outside & ~specks & ~casting_in(now, record)) / all};
 }
 
 }  // namespace biotomy::acquisition

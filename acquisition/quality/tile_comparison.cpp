@@ -65,8 +65,8 @@ double quotient(const TileMeasures& tile, const BandPair& pair, Axes axes) {
   return std::max(axes(tile.*pair.fine), 0.0) / std::max(axes(tile.*pair.coarse), kLeastEnergy);
 }
 
-std::optional<double> change(const TileMeasures& tile, References references, std::size_t number,
-                             const BandPair& pair, Axes axes) {
+std::optional<double> change_of_quotient(const TileMeasures& tile, References references,
+                                         std::size_t number, const BandPair& pair, Axes axes) {
   const double then = typical(references, number, [&](const TileMeasures& reference) {
     return quotient(reference, pair, axes);
   });
@@ -82,7 +82,7 @@ double change_of_energy(const TileMeasures& tile, References references, std::si
                   }));
 }
 
-double likeness(const TileMeasures& tile, References references, std::size_t number) {
+double likeness_of_detail(const TileMeasures& tile, References references, std::size_t number) {
   return likeness_of(change_of_energy(tile, references, number, &TileMeasures::coarse),
                      kContentChange);
 }

@@ -48,8 +48,8 @@ double quotient(const TileMeasures& tile, const BandPair& pair, Axes axes);
 
 /// How the quotient of a pair differs from what it is in the references, as a logarithm; nothing
 /// when there it is nothing.
-std::optional<double> change(const TileMeasures& tile, References references, std::size_t number,
-                             const BandPair& pair, Axes axes);
+std::optional<double> change_of_quotient(const TileMeasures& tile, References references,
+                                         std::size_t number, const BandPair& pair, Axes axes);
 
 /// Of a band's energy relative to the brightness, which neither lamp nor exposure change, as a
 /// logarithm.
@@ -58,7 +58,7 @@ double change_of_energy(const TileMeasures& tile, References references, std::si
 
 /// How alike a tile's content is to the references', up to 1: by the contrast of the coarse detail,
 /// which a little blur leaves alone.
-double likeness(const TileMeasures& tile, References references, std::size_t number);
+double likeness_of_detail(const TileMeasures& tile, References references, std::size_t number);
 
 /// By the mean colours, which no blur changes.
 double likeness_of_colours(const TileMeasures& tile, References references, std::size_t number);

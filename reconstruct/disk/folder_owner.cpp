@@ -69,7 +69,15 @@ class HandedTree {
       fail();
     }
     listed.release();  // closed with the list
-    while (const dirent* entry = ::readdir(list.get())) {
+    for (;;) {
+      errno = 0;  // by which an error is told from the end
+      const dirent* entry = ::readdir(list.get());
+      if (entry == nullptr && errno != 0) {
+        fail();
+      }
+      if (entry == nullptr) {
+        return;
+      }
       const char* name = entry->d_name;
       if (std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0) {
         continue;

@@ -35,8 +35,7 @@ std::string file_of(const SampleFolder& sample, std::int64_t layer) {
 
 /// Whether layers of the one can stand beside layers of the other.
 bool are_alike(const SampleDescription& a, const SampleDescription& b) {
-  return a.cuboid.size == b.cuboid.size && a.bits == b.bits &&
-         a.repeated_layers == b.repeated_layers;
+  return a.cuboid.size == b.cuboid.size && a.bits == b.bits;
 }
 
 }  // namespace

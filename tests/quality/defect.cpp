@@ -9,6 +9,9 @@ constexpr double kNever = -1.0;  // no strength of it is harmless
 
 constexpr double kGoalOfBlur = 0.99;
 
+// Casting material, which a part may show alone, has little detail that could be missed.
+constexpr double kGoalOfParts = 0.6;
+
 constexpr std::array kKinds{
     DefectKind{.defect = Defect::defocus,
                .name = "defocus",
@@ -194,6 +197,17 @@ constexpr std::array kKinds{
                .weight = 1,
                .slugs = {"shaded", "uneven-light"},
                .metric = "shade"},
+    DefectKind{.defect = Defect::part_blurred,
+               .name = "blurred in part",
+               .unit = "% of the contrast at half Nyquist, on 15 to 50 % of the area",
+               .least = 1.0,
+               .harmless = 3.0,
+               .harmful = 40.0,
+               .most = 95.0,
+               .weight = 2,
+               .slugs = {"blurred", "smeared"},
+               .metric = "blurred_part",
+               .goal = kGoalOfParts},
 };
 
 }  // namespace

@@ -27,11 +27,14 @@ enum class Defect {
   part_unchanged,
   shift,
   shadow,
+  part_blurred,
 };
 
 /// A defect, the strengths in which it is made, and what an assessment should make of them.
 /// Between `harmless` and `harmful` is the grey zone, in which either answer is right.
 struct DefectKind {
+  static constexpr double kUsualGoal = 0.98;
+
   Defect defect;
   const char* name;
   const char* unit;
@@ -42,7 +45,7 @@ struct DefectKind {
   int weight;                             ///< how often it is made, relative to the others
   std::array<std::string_view, 3> slugs;  ///< of the reasons that name it
   std::string_view metric;                ///< that is meant for it
-  double goal = 0.98;                     ///< part of the harmful frames that must be rejected
+  double goal = kUsualGoal;               ///< part of the harmful frames that must be rejected
   bool is_change = false;  ///< the metric is a change up or down, of which the amount counts
 };
 

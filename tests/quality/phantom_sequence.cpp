@@ -163,7 +163,8 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
   Setting setting = well(clean);
   sim::Scene& scene = setting.scene;
   switch (defect) {
-    case Defect::defocus: {
+    case Defect::defocus:
+    case Defect::part_blurred: {
       const double spread_pixels = std::sqrt(-std::log(1.0 - part));
       const double confusion_um = 4.0 * spread_pixels * settings_.pixel_um;
       setting.defocus_um = drawn_.sign() * confusion_um / (2.0 * optics_.lens.numerical_aperture);
@@ -221,10 +222,15 @@ LabelledFrame PhantomSequence::defective(Defect defect, const sim::Block& clean,
   }
   made.contrast = contrast(setting);
   made.frame = photograph(setting);
+  if (defect == Defect::part_blurred) {
+    const bridge::Frame sharp = photograph(well(clean));
+    sharp.image.copyTo(made.frame.image, ~part_of_frame(drawn_.between(0.15, 0.5)));
+  }
   spoil(made);
   if (defect == Defect::clipped) {
     made.strength = 100.0 * (clipped_share(made.frame.image) - clipped_share(accepted_.image));
-  } else if (defect == Defect::defocus || defect == Defect::smear) {
+  } else if (defect == Defect::defocus || defect == Defect::smear ||
+             defect == Defect::part_blurred) {
     made.strength = 100.0 * (1.0 - made.contrast);
   }
   made.demand = demand_of(kind, made.strength);
@@ -236,28 +242,20 @@ cv::Mat PhantomSequence::part_of_frame(double share) {
   cv::Mat mask = cv::Mat::zeros(settings_.height, settings_.width, CV_8UC1);
   const int width = static_cast<int>(std::lround(share * mask.cols));
   const int height = static_cast<int>(std::lround(share * mask.rows));
-  switch (drawn_.below(5)) {
-    case 0:
-      mask.colRange(0, width).setTo(255);
-      break;
-    case 1:
-      mask.colRange(mask.cols - width, mask.cols).setTo(255);
-      break;
-    case 2:
-      mask.rowRange(0, height).setTo(255);
-      break;
-    case 3:
-      mask.rowRange(mask.rows - height, mask.rows).setTo(255);
-      break;
-    default: {
-      // Of 40 % of a frame of 4 : 3 a disc still lies within it.
-      const double area = std::min(share, 0.4) * static_cast<double>(mask.total());
-      const int radius = static_cast<int>(std::sqrt(area / std::numbers::pi));
-      const cv::Point centre(static_cast<int>(drawn_.between(radius, mask.cols - radius)),
-                             static_cast<int>(drawn_.between(radius, mask.rows - radius)));
-      cv::circle(mask, centre, radius, cv::Scalar::all(255), cv::FILLED);
-    }
+  const std::array strips = {
+      cv::Rect(0, 0, width, mask.rows), cv::Rect(mask.cols - width, 0, width, mask.rows),
+      cv::Rect(0, 0, mask.cols, height), cv::Rect(0, mask.rows - height, mask.cols, height)};
+  const auto drawn = static_cast<std::size_t>(drawn_.below(static_cast<int>(strips.size()) + 1));
+  if (drawn < strips.size()) {
+    mask(strips.at(drawn)).setTo(255);
+    return mask;
   }
+  // Of 40 % of a frame of 4 : 3 a disc still lies within it.
+  const double area = std::min(share, 0.4) * static_cast<double>(mask.total());
+  const int radius = static_cast<int>(std::sqrt(area / std::numbers::pi));
+  const cv::Point centre(static_cast<int>(drawn_.between(radius, mask.cols - radius)),
+                         static_cast<int>(drawn_.between(radius, mask.rows - radius)));
+  cv::circle(mask, centre, radius, cv::Scalar::all(255), cv::FILLED);
   return mask;
 }
 
