@@ -9,6 +9,7 @@
 
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/jpeg_library.hpp"
+#include "reconstruct/picture/rgb_picture.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -111,6 +112,7 @@ class Compressor {
 }  // namespace
 
 std::vector<std::byte> encode_jpeg(const cv::Mat& rgb, const PictureNotes& notes, int quality) {
+  require_rgb_picture(rgb);
   if (quality < 1 || quality > 100) {
     throw InvalidRequest("the quality of a JPEG is 1 to 100");
   }

@@ -16,6 +16,7 @@
 #include <zlib.h>
 
 #include "reconstruct/picture/png_filter.hpp"
+#include "reconstruct/picture/rgb_picture.hpp"
 #include "reconstruct/picture/strip_deflate.hpp"
 
 namespace biotomy::reconstruct {
@@ -170,6 +171,7 @@ Bytes checksum(const std::vector<Strip>& strips) {
 }  // namespace
 
 std::vector<std::byte> encode_png(const cv::Mat& rgb, const PictureNotes& notes) {
+  require_rgb_picture(rgb);
   const std::size_t row_bytes = static_cast<std::size_t>(rgb.cols) * rgb.elemSize();
   const int rows = static_cast<int>(std::max<std::size_t>(1, kStripBytes / row_bytes));
   std::vector<Strip> strips(static_cast<std::size_t>((rgb.rows + rows - 1) / rows));

@@ -6,6 +6,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "reconstruct/picture/rgb_picture.hpp"
 #include "reconstruct/picture/strip_deflate.hpp"
 #include "reconstruct/picture/tiff_file.hpp"
 
@@ -76,6 +77,7 @@ void write_tags(TiffFile& file, const cv::Mat& rgb, int rows, const PictureNotes
 }  // namespace
 
 std::vector<std::byte> encode_tiff(const cv::Mat& rgb, const PictureNotes& notes) {
+  require_rgb_picture(rgb);
   const std::size_t row_bytes = static_cast<std::size_t>(rgb.cols) * rgb.elemSize();
   const int rows = static_cast<int>(
       std::clamp<std::size_t>(kStripBytes / row_bytes, 1, static_cast<std::size_t>(rgb.rows)));

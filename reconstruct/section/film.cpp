@@ -16,6 +16,7 @@
 
 #include "reconstruct/disk/durable_file.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/picture/rgb_picture.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
@@ -168,6 +169,7 @@ void Film::fail() {
 }
 
 void Film::add(const cv::Mat& frame) {
+  require_rgb_picture(frame);
   if (frame.size() != frame_size_) {
     throw InvalidRequest("a frame has not the size of the film");
   }

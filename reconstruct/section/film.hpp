@@ -35,7 +35,7 @@ class Film {
   Film& operator=(const Film&) = delete;
 
   /// CV_8UC3 or CV_16UC3 (cut to 8 bits), R G B, of the frame size. Throws InvalidRequest for
-  /// another size, SampleError with ffmpeg's own words when it takes no more.
+  /// another size or type, SampleError with ffmpeg's own words when it takes no more.
   void add(const cv::Mat& frame);
 
   /// Throws SampleError when ffmpeg failed or the file does not hold as many frames as were added.

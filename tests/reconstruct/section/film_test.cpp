@@ -192,10 +192,13 @@ TEST(Film, RefusesWhatIsNoFilm) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Film, RefusesAFrameOfAnotherSize) {
+TEST(Film, RefusesAFrameOfAnotherSizeOrType) {
   const TemporaryFolder folder;
   Film film(folder.path() / "a.mp4", 25.0, kSize);
   EXPECT_THROW(film.add(cv::Mat(100, 100, CV_8UC3, cv::Scalar())), InvalidRequest);
+  for (const int type : {CV_8UC1, CV_8UC4, CV_32FC3}) {
+    EXPECT_THROW(film.add(cv::Mat(kSize, type, cv::Scalar())), InvalidRequest) << type;
+  }
 }
 
 TEST(Film, SaysThatThereIsNoFolderAndPrintsNothing) {
