@@ -7,7 +7,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "reconstruct/store/volume_writer.hpp"
 #include "tests/integration/child_process.hpp"
+#include "tests/reconstruct/test_images.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace biotomy::tests {
@@ -51,6 +53,30 @@ class Library : public testing::Test {
     return folder_ / "sample";
   }
 
+  /// A sample in the middle of its job: of its eleven layers the volume has eight.
+  fs::path growing_sample() {
+    using namespace reconstruct;
+    const SampleFolder sample =
+        sample_with_layers(folder_ / "growing", {64, 48, 20}, 8, 8, {10, 10, 20});
+    VolumeWriter(sample, VolumeLayout()).append(8, false);
+    add_layers(sample, 9, 11);
+    return sample.path();
+  }
+
+  void expect_the_tools_section(const fs::path& sample, const std::string& points) {
+    const Outcome cut =
+        run({tree_ / "build" / "section", sample, points, folder_ / "example.png"}, folder_.path());
+    ASSERT_EQ(cut.exit_code, 0) << cut.errors;
+    EXPECT_NE(cut.output.find("pixels of 10 um"), std::string::npos) << cut.output;
+    expect_done({BIOTOMY_TOOL, "section", sample, "--points", points, "--theta", "inscribed", "-o",
+                 folder_ / "tool.png"});
+    const cv::Mat example = cv::imread(folder_ / "example.png");
+    const cv::Mat tool = cv::imread(folder_ / "tool.png");
+    ASSERT_FALSE(example.empty());
+    ASSERT_EQ(example.size(), tool.size());
+    EXPECT_EQ(cv::norm(example, tool, cv::NORM_INF), 0.0);
+  }
+
   const fs::path tree_ = BIOTOMY_LIBRARY_TREE;
   TemporaryFolder folder_;
 };
@@ -59,17 +85,8 @@ TEST_F(Library, AnExampleThatIsBuiltAgainstItCutsTheSectionThatTheToolCuts) {
   const fs::path program = tree_ / "build" / "section";
   const std::string points = "300,0,100 0,250,100 630,470,280";
   const fs::path cut_sample = sample();
-
-  const Outcome cut = run({program, cut_sample, points, folder_ / "example.png"}, folder_.path());
-  ASSERT_EQ(cut.exit_code, 0) << cut.errors;
-  EXPECT_NE(cut.output.find("pixels of 10 um"), std::string::npos) << cut.output;
-  expect_done({BIOTOMY_TOOL, "section", cut_sample, "--points", points, "--theta", "inscribed",
-               "-o", folder_ / "tool.png"});
-  const cv::Mat example = cv::imread(folder_ / "example.png");
-  const cv::Mat tool = cv::imread(folder_ / "tool.png");
-  ASSERT_FALSE(example.empty());
-  ASSERT_EQ(example.size(), tool.size());
-  EXPECT_EQ(cv::norm(example, tool, cv::NORM_INF), 0.0);
+  expect_the_tools_section(cut_sample, points);
+  expect_the_tools_section(growing_sample(), "0,0,100 630,0,200 0,470,160");
 
   EXPECT_EQ(run({program, cut_sample, "0,0,0 1,1,1 2,2,2", folder_ / "none.png"}, folder_.path())
                 .exit_code,

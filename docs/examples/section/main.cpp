@@ -8,35 +8,37 @@
 #include <exception>
 #include <iostream>
 
+#include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/geometry/plane.hpp"
 #include "reconstruct/geometry/section_basis.hpp"
-#include "reconstruct/sample/sample_folder.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
-#include "reconstruct/store/volume.hpp"
 
 namespace rc = biotomy::reconstruct;
 
 namespace {
 
-void cut(const char* sample, const char* points, const char* picture) {
-  const rc::Volume volume = rc::Volume::open(rc::SampleFolder::open(sample).volume_path());
+void cut(const char* folder, const char* points, const char* picture) {
+  // While the sample is being ground, its newest layers are not in the volume yet: they are its
+  // tail.
+  const rc::OpenedSample sample(folder);
+  sample.require_layers();
 
   // Plane::through_points takes the points as numbers; here they come as text.
   rc::PlaneText text;
   text.points = points;
   const rc::Plane plane =
-      rc::parse_plane("", text, rc::LengthUnit::micrometres, volume.cuboid().spacing);
+      rc::parse_plane("", text, rc::LengthUnit::micrometres, sample.volume.cuboid().spacing);
 
   rc::SectionStyle style;
   style.theta = rc::theta::Inscribed{};  // no background in the picture
   const rc::SectionBasis basis = rc::section_basis(rc::BasisKind::layer, plane);
 
   // Decoded chunks are kept for the next section; 256 MB of them here.
-  rc::VolumeBricks source(volume, 256'000'000);
+  rc::VolumeBricks source(sample.volume, 256'000'000, {}, &sample.tail);
   const rc::Section section = rc::cut_section(source, {plane, basis, style});
 
   const rc::PixelGrid& grid = section.outline.grid;
