@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
+
+#include "acquisition/quality/clipping_levels.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -56,6 +61,13 @@ void correct_row(std::uint16_t* values, const std::uint16_t* gain, const std::ui
   }
 }
 
+/// What is clipped, at full scale: where it is corrected it would smear, and no longer pile up.
+template <typename Sample>
+void saturate_row(Sample* values, const Sample* levels, int count) {
+  constexpr Sample kFull = std::numeric_limits<Sample>::max();
+  for (int i = 0; i < count; ++i) values[i] = values[i] >= levels[i] ? kFull : values[i];
+}
+
 /// By way of the light, of which there is as much at a time as stays in the processor's cache.
 template <typename Sample, bool kDark>
 void correct_srgb_row(Sample* values, const std::uint16_t* gain, const std::uint16_t* dark,
@@ -83,12 +95,25 @@ void correct_row(bridge::Transfer transfer, Sample* values, const std::uint16_t*
   }
 }
 
+/// The levels of a row's values.
+template <typename Sample>
+std::vector<Sample> row_of(const ClippingLevels& levels, int width) {
+  std::vector<Sample> row;
+  row.reserve(levels.size() * static_cast<std::size_t>(width));
+  for (int x = 0; x < width; ++x) {
+    for (const int level : levels) row.push_back(static_cast<Sample>(level));
+  }
+  return row;
+}
+
 template <typename Sample>
 void correct(cv::Mat& image, bridge::Transfer transfer, const cv::Mat& gain, const cv::Mat& dark) {
+  const std::vector<Sample> levels = row_of<Sample>(clipping_levels(image), image.cols);
   cv::parallel_for_({0, image.rows}, [&](const cv::Range& rows) {
     const int count = 3 * image.cols;
     for (int y = rows.start; y < rows.end; ++y) {
       auto* values = image.ptr<Sample>(y);
+      saturate_row(values, levels.data(), count);
       const auto* gains = gain.ptr<std::uint16_t>(y);
       if (dark.empty()) {
         correct_row<Sample, false>(transfer, values, gains, nullptr, count);

@@ -15,7 +15,8 @@ namespace biotomy::acquisition {
 /// technique for digital detectors", Proc. SPIE 3336 (1998) 348-354. It holds for values in
 /// proportion to the light: those of frames that follow it by a curve are made such values, and
 /// coded by the same curve again. Rounded to the nearest level; what becomes negative is 0. A value
-/// at full scale stays there, whatever the flat field says: what was clipped must be seen to be.
+/// that is clipped (see ClippingLevels) becomes full scale, whatever the flat field says: what was
+/// clipped must be seen to be.
 class FieldCorrection {
  public:
   /// Of the flat field's mean. A pixel that got less of the light than this part is amplified no

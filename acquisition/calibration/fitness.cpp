@@ -37,7 +37,7 @@ double darkest(const cv::Scalar& colours) {
 std::optional<std::string> light_complaint(const cv::Mat& part, double clipped) {
   const cv::Scalar mean = cv::mean(part);
   if (clipped > kMostClipped) {
-    return sentence("%.4f of the values are at full scale: shorten the exposure, or dim the lamp",
+    return sentence("%.4f of the values are clipped: shorten the exposure, or dim the lamp",
                     clipped);
   }
   if (darkest(mean) < kLeastBright) {

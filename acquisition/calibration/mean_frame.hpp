@@ -23,7 +23,7 @@ class MeanFrame {
   /// CV_16UC3, in proportion to the light; 65535 is full scale. There is a frame.
   cv::Mat mean() const;
 
-  /// The largest part of its values that a frame had at full scale.
+  /// The largest part of its values that was clipped in a frame.
   double clipped() const { return clipped_; }
 
  private:

@@ -85,7 +85,7 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   judgement.at_most("brightness_maximum", light.brightness, thresholds.maximum_brightness,
                     "too-bright", "the mean brightness is %.3f of full scale, above %.3f");
   judgement.at_most("clipped_fraction", light.clipped, thresholds.maximum_clipped_fraction,
-                    "clipped", "%.4f of the pixels are at full scale, more than %.4f");
+                    "clipped", "%.4f of the pixels are clipped, more than %.4f");
 
   result.surface = std::make_shared<const SurfacePrint>(take_surface_print(image));
   result.light = find_light(*result.surface, expectation.surfaces);

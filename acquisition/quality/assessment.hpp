@@ -71,7 +71,7 @@ struct QualityThresholds {
   double maximum_blurred_part = 0.15;       ///< of the frame, in one piece
   double minimum_brightness = 0.05;         ///< mean, of full scale
   double maximum_brightness = 0.95;         ///< mean, of full scale
-  double maximum_clipped_fraction = 0.05;   ///< of pixels with a colour at full scale
+  double maximum_clipped_fraction = 0.05;   ///< of pixels with a clipped colour
   double maximum_brightness_change = 0.05;  ///< of the light, against the last layers'
   double maximum_unevenness = 0.08;         ///< likewise: how much it differs over the frame
   double maximum_colour_cast = 0.035;       ///< likewise: how much it differs between the colours

@@ -8,6 +8,8 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "acquisition/quality/clipping_levels.hpp"
+
 namespace biotomy::acquisition {
 namespace {
 
@@ -39,15 +41,14 @@ struct Colours {
 
 /// The brightness of a row, (R + 2 G + B)/4 of full scale.
 template <typename Sample>
-void brightness_of_row(const Sample* pixels, int width, float* brightness) {
-  constexpr Sample kFull = std::numeric_limits<Sample>::max();
-  constexpr float kScale = 0.25F / static_cast<float>(kFull);
+void brightness_of_row(const Sample* pixels, int width, const ClippingLevels& levels,
+                       float* brightness) {
+  constexpr float kScale = 0.25F / static_cast<float>(std::numeric_limits<Sample>::max());
   for (int x = 0; x < width; ++x, pixels += 3) {
-    const bool clipped = pixels[0] == kFull || pixels[1] == kFull || pixels[2] == kFull;
     const auto sum = static_cast<float>(static_cast<std::uint32_t>(pixels[0]) +
                                         2U * static_cast<std::uint32_t>(pixels[1]) +
                                         static_cast<std::uint32_t>(pixels[2]));
-    brightness[x] = clipped ? kClipped : kScale * sum;
+    brightness[x] = is_clipped(pixels, levels) ? kClipped : kScale * sum;
   }
 }
 
@@ -194,7 +195,8 @@ DetailEnergy less(DetailEnergy energy, double noise) {
 /// Measures one tile after the other; what it needs of memory it keeps.
 class TileMeasurer {
  public:
-  explicit TileMeasurer(const cv::Mat& image) : image_(image) {}
+  TileMeasurer(const cv::Mat& image, const ClippingLevels& levels)
+      : image_(image), levels_(levels) {}
 
   TileMeasures measure(const cv::Rect& tile) {
     const cv::Rect seen = cv::Rect(tile.x - kReach, tile.y - kReach, tile.width + 2 * kReach,
@@ -230,7 +232,7 @@ class TileMeasurer {
     fine_.resize(seen.width, seen.height);
     for (int y = 0; y < seen.height; ++y) {
       const Sample* pixels = image_.ptr<Sample>(seen.y + y) + 3L * seen.x;
-      brightness_of_row(pixels, seen.width, fine_.row(y));
+      brightness_of_row(pixels, seen.width, levels_, fine_.row(y));
       if (seen.y + y < tile.y || seen.y + y >= tile.br().y) continue;
       const int skipped = tile.x - seen.x;
       add_colours(pixels + 3L * skipped, fine_.row(y) + skipped, tile.width, colours);
@@ -245,6 +247,7 @@ class TileMeasurer {
   }
 
   const cv::Mat& image_;
+  const ClippingLevels& levels_;
   Plane fine_;
   Plane middle_;
   Plane coarse_;
@@ -260,8 +263,9 @@ double TileMeasures::signal_to_noise() const {
 FrameMeasures measure_frame(const cv::Mat& image) {
   FrameMeasures measures{TileGrid::of(image.size()), {}};
   measures.tiles.resize(static_cast<std::size_t>(measures.grid.count()));
+  const ClippingLevels levels = clipping_levels(image);
   cv::parallel_for_({0, measures.grid.count()}, [&](const cv::Range& tiles) {
-    TileMeasurer measurer(image);
+    TileMeasurer measurer(image, levels);
     for (int number = tiles.start; number < tiles.end; ++number) {
       measures.tiles[static_cast<std::size_t>(number)] =
           measurer.measure(measures.grid.tile(number));

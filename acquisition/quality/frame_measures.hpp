@@ -19,9 +19,9 @@ struct DetailEnergy {
   double sum() const { return along_x + along_y; }
 };
 
-/// What one look at a tile tells. Pixels in which a colour is at full scale are left out, and with
-/// them every derivative that reaches one: a saturated spot would turn the order of sharp and
-/// blurred about.
+/// What one look at a tile tells. Pixels in which a colour is clipped (see ClippingLevels) are left
+/// out, and with them every derivative that reaches one: a saturated spot would turn the order of
+/// sharp and blurred about.
 struct TileMeasures {
   std::array<double, 3> mean{};  ///< R, G, B, of full scale
   double clipped = 0.0;          ///< part of its pixels

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "acquisition/quality/sweep_mask.hpp"
+#include "acquisition/quality/clipping_levels.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -22,39 +22,36 @@ struct Twins {
 
 /// The brightness (R + 2 G + B)/4 of the two diagonals of 2 × 2 pixels, of full scale.
 template <typename Sample>
-void split_row(const Sample* upper, const Sample* lower, int level, int width, float* falling,
-               float* rising) {
+void split_row(const Sample* upper, const Sample* lower, const ClippingLevels& levels, int width,
+               float* falling, float* rising) {
   constexpr float kScale = 1.0F / (8.0F * static_cast<float>(std::numeric_limits<Sample>::max()));
-  int largest = 0;
-  const auto brightness = [&largest](const Sample* pixel) {
-    const int red = pixel[0];
-    const int green = pixel[1];
-    const int blue = pixel[2];
-    largest = std::max({largest, red, green, blue});
-    return red + 2 * green + blue;
+  bool clipped = false;
+  const auto brightness = [&](const Sample* pixel) {
+    clipped = clipped || is_clipped(pixel, levels);
+    return pixel[0] + 2 * pixel[1] + pixel[2];
   };
   for (int x = 0; x < width; ++x, upper += 6, lower += 6) {
-    largest = 0;
+    clipped = false;
     const int falls = brightness(upper) + brightness(lower + 3);
     const int rises = brightness(upper + 3) + brightness(lower);
-    falling[x] = largest >= level ? kLeftOut : kScale * static_cast<float>(falls);
-    rising[x] = largest >= level ? kLeftOut : kScale * static_cast<float>(rises);
+    falling[x] = clipped ? kLeftOut : kScale * static_cast<float>(falls);
+    rising[x] = clipped ? kLeftOut : kScale * static_cast<float>(rises);
   }
 }
 
 Twins split(const cv::Mat& image, const cv::Mat& usable) {
   const cv::Size half(image.cols / 2, image.rows / 2);
   Twins twins{cv::Mat(half, CV_32FC1), cv::Mat(half, CV_32FC1)};
-  const int level = clipping_level(image);
+  const ClippingLevels levels = clipping_levels(image);
   cv::parallel_for_({0, half.height}, [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
       auto* falling = twins.falling.ptr<float>(y);
       auto* rising = twins.rising.ptr<float>(y);
       if (image.depth() == CV_16U) {
-        split_row(image.ptr<std::uint16_t>(2 * y), image.ptr<std::uint16_t>(2 * y + 1), level,
+        split_row(image.ptr<std::uint16_t>(2 * y), image.ptr<std::uint16_t>(2 * y + 1), levels,
                   half.width, falling, rising);
       } else {
-        split_row(image.ptr<std::uint8_t>(2 * y), image.ptr<std::uint8_t>(2 * y + 1), level,
+        split_row(image.ptr<std::uint8_t>(2 * y), image.ptr<std::uint8_t>(2 * y + 1), levels,
                   half.width, falling, rising);
       }
       const auto* may_be_seen = usable.ptr<std::uint8_t>(y);

@@ -1,6 +1,7 @@
 #include "acquisition/quality/surface_defects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/shade.hpp"
 #include "acquisition/quality/surface_colours.hpp"
 #include "acquisition/quality/thumbnail.hpp"
@@ -137,21 +139,23 @@ cv::Mat casting_in(const SurfacePrint& surface, const SurfaceRecord& record) {
 }
 
 template <typename Sample>
-bool glares(const cv::Mat& image, int cell_x, int cell_y) {
-  constexpr auto kNearlyFull = static_cast<Sample>(kFull * std::numeric_limits<Sample>::max());
+bool glares(const cv::Mat& image, const ClippingLevels& levels, int cell_x, int cell_y) {
+  constexpr auto kNearlyFull = static_cast<int>(kFull * std::numeric_limits<Sample>::max());
+  const std::array least{std::min(levels[0], kNearlyFull), std::min(levels[1], kNearlyFull),
+                         std::min(levels[2], kNearlyFull)};
   int full = 0;
   for (int y = 0; y < kCell; ++y) {
     const Sample* pixel = image.ptr<Sample>(cell_y * kCell + y) + 3 * kCell * cell_x;
     for (int x = 0; x < kCell; ++x, pixel += 3) {
-      if (std::min({pixel[0], pixel[1], pixel[2]}) >= kNearlyFull) ++full;
+      if (pixel[0] >= least[0] && pixel[1] >= least[1] && pixel[2] >= least[2]) ++full;
     }
   }
   return full >= kGlarePixels;
 }
 
-bool glares(const cv::Mat& image, int cell_x, int cell_y) {
-  return image.depth() == CV_16U ? glares<std::uint16_t>(image, cell_x, cell_y)
-                                 : glares<std::uint8_t>(image, cell_x, cell_y);
+bool glares(const cv::Mat& image, const ClippingLevels& levels, int cell_x, int cell_y) {
+  return image.depth() == CV_16U ? glares<std::uint16_t>(image, levels, cell_x, cell_y)
+                                 : glares<std::uint8_t>(image, levels, cell_x, cell_y);
 }
 
 }  // namespace
@@ -170,12 +174,13 @@ SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& no
   cv::Mat frosted;
   cv::resize(frost, frosted, cells.size(), 0.0, 0.0, cv::INTER_NEAREST);
 
+  const ClippingLevels levels = clipping_levels(image);
   int debris = 0;
   int glare = 0;
   for (int y = 0; y < cells.rows; ++y) {
     for (int x = 0; x < cells.cols; ++x) {
       if (outside.at<std::uint8_t>(y, x) == 0 || unknown.at<std::uint8_t>(y, x) == 0) continue;
-      if (glares(image, x, y)) {
+      if (glares(image, levels, x, y)) {
         ++glare;
       } else if (frosted.at<std::uint8_t>(y, x) == 0 && specks.at<std::uint8_t>(y, x) != 0) {
         ++debris;

@@ -26,8 +26,8 @@ struct SurfaceDefects {
 /// which comes up from below is not. Nor is what is connected over more than 0.8 % of the frame. A
 /// speck smaller than a cell counts as one. Nothing is known of the colour of debris or tissue.
 ///
-/// Glare: those of the foreign cells in which at least 1 pixel in 16 is at full scale in all
-/// colours.
+/// Glare: those of the foreign cells in which at least 1 pixel in 16 is at full scale, or
+/// clipped, in all colours.
 ///
 /// Frost: a veil that makes colours paler. On the light grid the opacity of a white veil that would
 /// explain a cell is the least of (now − before)/(1 − before) over the colours that are not bright

@@ -1,13 +1,12 @@
 #include "acquisition/quality/sweep_mask.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <limits>
 
 #include <opencv2/core.hpp>
-#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "acquisition/quality/clipping_levels.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -17,14 +16,12 @@ constexpr double kLeastUsable = 0.05;
 constexpr double kVeryLeastUsable = 0.005;
 constexpr int kWidestMargin = 100;  ///< this part of the width
 
-/// JPEG writes a little less than full scale where the picture was clipped.
-constexpr double kNearlyFull = 0.98;
-
 template <typename Sample>
-std::int64_t mark_clipped(const Sample* pixels, int width, int level, std::uint8_t* marks) {
+std::int64_t mark_clipped(const Sample* pixels, int width, const ClippingLevels& levels,
+                          std::uint8_t* marks) {
   std::int64_t clipped = 0;
   for (int x = 0; x < width; ++x, pixels += 3) {
-    if (std::max({pixels[0], pixels[1], pixels[2]}) < level) continue;
+    if (!is_clipped(pixels, levels)) continue;
     marks[x / 2] = 1;
     ++clipped;
   }
@@ -48,31 +45,19 @@ cv::Mat usable_beside(const cv::Mat& clipped, double least) {
 
 }  // namespace
 
-int clipping_level(const cv::Mat& image) {
-  if (image.depth() == CV_8U) {
-    return static_cast<int>(kNearlyFull * std::numeric_limits<std::uint8_t>::max());
-  }
-  double largest = 0.0;
-  cv::minMaxLoc(image.reshape(1), nullptr, &largest);
-  for (const int bits : {10, 12, 14}) {
-    if (static_cast<int>(largest) == (1 << bits) - 1) return static_cast<int>(largest);
-  }
-  return static_cast<int>(kNearlyFull * std::numeric_limits<std::uint16_t>::max());
-}
-
 SweepMask::SweepMask(cv::Size frame)
     : clipped_(cv::Mat::zeros((frame.height + 1) / 2, (frame.width + 1) / 2, CV_8UC1)),
       clipped_in_fewer_(clipped_.clone()) {}
 
 double SweepMask::add(const cv::Mat& image) {
-  const int level = clipping_level(image);
+  const ClippingLevels levels = clipping_levels(image);
   cv::Mat found = cv::Mat::zeros(clipped_.size(), CV_8UC1);
   std::int64_t clipped = 0;
   for (int y = 0; y < image.rows; ++y) {
     auto* marks = found.ptr<std::uint8_t>(y / 2);
     clipped += image.depth() == CV_16U
-                   ? mark_clipped(image.ptr<std::uint16_t>(y), image.cols, level, marks)
-                   : mark_clipped(image.ptr<std::uint8_t>(y), image.cols, level, marks);
+                   ? mark_clipped(image.ptr<std::uint16_t>(y), image.cols, levels, marks)
+                   : mark_clipped(image.ptr<std::uint8_t>(y), image.cols, levels, marks);
   }
   const double part = static_cast<double>(clipped) / static_cast<double>(image.total());
   clipped_ |= found;

@@ -18,8 +18,7 @@ class SweepMask {
   explicit SweepMask(cv::Size frame);
 
   /// Takes in one frame, CV_8UC3 or CV_16UC3 of the size given, R G B. The part of its pixels in
-  /// which a colour is clipped: at full scale or, of 16 bits, at the full scale of a converter of
-  /// 10, 12 or 14 bits that the frame does not exceed.
+  /// which a colour is clipped.
   double add(const cv::Mat& image);
 
   /// After the last frame: where the frames can be compared, CV_8UC1 of 0 and 1 at half the
@@ -32,8 +31,5 @@ class SweepMask {
   cv::Mat clipped_in_fewer_;  ///< likewise, in some frame that is not clipped over more than half
   int fewer_ = 0;             ///< frames of that kind
 };
-
-/// The least value that counts as clipped in this image, of its samples' scale.
-int clipping_level(const cv::Mat& image);
 
 }  // namespace biotomy::acquisition

@@ -92,7 +92,7 @@ void read_quality(const CheckedTable& table, QualityThresholds& thresholds,
              "mean brightness, of full scale; above it the frame is white");
   thresholds.maximum_clipped_fraction =
       number(table, "maximum_clipped_fraction", thresholds.maximum_clipped_fraction, "", 0.0, 1.0,
-             "part of the pixels that may be at full scale in a colour");
+             "part of the pixels that may be clipped in a colour");
   read_light_and_surface(table, thresholds);
   thresholds.maximum_dead_rows =
       number(table, "maximum_dead_rows", thresholds.maximum_dead_rows, "", 0.0, 1.0,
