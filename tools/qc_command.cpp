@@ -5,13 +5,16 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "acquisition/quality/consecutive_frames.hpp"
 #include "acquisition/quality/focus_sweep.hpp"
 #include "acquisition/records/journal_reader.hpp"
+#include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/service/configuration.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/picture/image_file.hpp"
@@ -31,6 +34,7 @@ using acquisition::Assessment;
 using acquisition::ConsecutiveFrames;
 using acquisition::JournalReader;
 using acquisition::QualityThresholds;
+using acquisition::Verdict;
 using reconstruct::InvalidRequest;
 using reconstruct::SampleError;
 using reconstruct::SampleFolder;
@@ -52,8 +56,8 @@ struct LayerRange {
 };
 
 /// So many layers before the first one asked for are judged without a word: it is compared with
-/// them, as it was when it was taken.
-constexpr std::int64_t kCarriedAlong = 8;
+/// them, as it was when it was taken. None is remembered longer.
+constexpr auto kCarriedAlong = static_cast<std::int64_t>(acquisition::FaceRecord::kRemembered);
 
 QualityThresholds thresholds_of(const Options& options) {
   if (options.configuration.empty()) return {};
@@ -90,7 +94,7 @@ void judge_images(const Options& options, const std::vector<fs::path>& files, Qc
       continue;
     }
     const Assessment assessment = frames.judge(image, static_cast<std::int64_t>(i) + 1);
-    if (assessment.verdict == acquisition::Verdict::accepted) frames.accept(assessment);
+    if (assessment.verdict == Verdict::accepted) frames.accept(assessment, false);
     report.add({files[i].string(), assessment, std::nullopt, {}});
     bar.update(static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(files.size()));
   }
@@ -108,18 +112,58 @@ LayerRange layers_to_judge(const Options& options, const SampleFolder& sample) {
   return asked;
 }
 
+/// What a job that starts at this layer recalls of those before. A layer that cannot be read any
+/// more recalls nothing.
+void recall_before(std::int64_t layer, const SampleFolder& sample, ConsecutiveFrames& frames) {
+  if (layer <= 1) return;
+  try {
+    acquisition::RecalledFaces recalled =
+        acquisition::recall_faces(sample, layer - 1, reconstruct::read_layer_image);
+    frames.recall(std::move(recalled.faces), std::move(recalled.sharpness),
+                  std::move(recalled.surfaces));
+  } catch (const SampleError&) {
+  }
+}
+
+/// What the journal, if there is one, says of the layers' making.
+class Past {
+ public:
+  explicit Past(const SampleFolder& sample) {
+    if (!fs::exists(sample.journal_path())) return;
+    journal_.emplace(sample.journal_path());
+    const std::vector<std::int64_t> starts = journal_->starts();
+    starts_.insert(starts.begin(), starts.end());
+  }
+
+  bool has_start_at(std::int64_t layer) const { return starts_.contains(layer); }
+
+  bool has_flag(std::int64_t layer) const {
+    if (!journal_) return false;
+    const auto found = journal_->committed_layers(layer, 1);
+    return !found.empty() && found.front().layer == layer && found.front().flagged;
+  }
+
+  std::vector<acquisition::AttemptNote> attempts(std::int64_t layer) const {
+    return journal_ ? journal_->attempts(layer) : std::vector<acquisition::AttemptNote>{};
+  }
+
+ private:
+  std::optional<JournalReader> journal_;  // an imported sample has none
+  std::set<std::int64_t> starts_;
+};
+
 /// A sample's layers were accepted, whatever is thought of them now: each is what the next one is
-/// compared with.
+/// compared with, as the daemon did that took them.
 void judge_layers(const Options& options, QcReport& report) {
   const SampleFolder sample = SampleFolder::open(options.sample);
   const LayerRange range = layers_to_judge(options, sample);
-  std::optional<JournalReader> journal;  // an imported sample has none
-  if (fs::exists(sample.journal_path())) journal.emplace(sample.journal_path());
+  const Past past(sample);
 
   ConsecutiveFrames frames(thresholds_of(options));
   ProgressBar bar("Judging", "layers");
-  for (std::int64_t layer = std::max<std::int64_t>(1, range.first - kCarriedAlong);
-       layer <= range.last; ++layer) {
+  const std::int64_t first = std::max<std::int64_t>(1, range.first - kCarriedAlong);
+  for (std::int64_t layer = first; layer <= range.last; ++layer) {
+    if (layer == first || past.has_start_at(layer)) recall_before(layer, sample, frames);
     const fs::path path = sample.layer_path(layer);
     const std::string name = fs::relative(path, sample.path()).string();
     cv::Mat image;
@@ -129,11 +173,14 @@ void judge_layers(const Options& options, QcReport& report) {
       if (layer >= range.first) report.add_unreadable(name, layer, error.what());
       continue;
     }
-    const Assessment assessment = frames.judge(image, layer);
-    frames.accept(assessment);
+    Assessment assessment = frames.judge(image, layer);
+    const bool flagged = past.has_flag(layer);
+    frames.accept(assessment, flagged);
     if (layer < range.first) continue;
-    report.add({name, assessment, layer,
-                journal ? journal->attempts(layer) : std::vector<acquisition::AttemptNote>{}});
+    if (flagged && assessment.lacks_only_sharpness) {
+      assessment.verdict = Verdict::accepted_with_flag;
+    }
+    report.add({name, assessment, layer, past.attempts(layer)});
     bar.update(layer - range.first + 1, range.last - range.first + 1);
   }
 }

@@ -1,10 +1,12 @@
 // The steps of a job around the layers: preflight, recovering, homing, finishing, resetting.
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "acquisition/job/job.hpp"
 #include "acquisition/log.hpp"
+#include "acquisition/records/journal_rows.hpp"
 #include "acquisition/rig/stage_checks.hpp"
 #include "acquisition/rig/stage_identity.hpp"
 
@@ -91,7 +93,7 @@ std::optional<JobEvent> Job::poll_recovering() {
   }
   if (continuation_->layer > settings_.plan.layers) return JobEvent::nothing_left;
 
-  note("recovery", "goes on with layer " + std::to_string(continuation_->layer) +
+  note("recovery", std::string(kGoesOnWithLayer) + std::to_string(continuation_->layer) +
                        (continuation_->ground ? ", which is ground already" : ""));
   cycle_ = std::make_unique<LayerCycle>(
       settings_,

@@ -7,6 +7,7 @@
 
 #include "acquisition/job/quality_ladder.hpp"
 #include "acquisition/log.hpp"
+#include "acquisition/quality/accepted_layer.hpp"
 #include "acquisition/rig/capture.hpp"
 #include "acquisition/rig/focus_actuators.hpp"
 
@@ -243,13 +244,9 @@ std::optional<JobEvent> LayerCycle::layer_stored() {
   disk_left_layers_ = stored.disk_left_layers;
   focus_memory_.keep();
   if (const auto& ratio = in_hand_->assessment.sharpness_to_peak) focus_memory_.accepted(*ratio);
-  expectation_.faces.accept(layer_, in_hand_->assessment.face, in_hand_->assessment.face_change);
   const bool flagged = in_hand_->assessment.verdict == Verdict::accepted_with_flag;
   flagged_in_a_row_ = flagged ? flagged_in_a_row_ + 1 : 0;
-  // Beside a layer that lacks sharpness the next one would pass for sharp.
-  if (!flagged) expectation_.sharpness.accept(in_hand_->assessment.measures);
-  expectation_.surfaces.accept(layer_, in_hand_->assessment.surface, in_hand_->assessment.light,
-                               in_hand_->assessment.arrived);
+  accept_layer(layer_, in_hand_->assessment, flagged, expectation_);
   last_committed_ = CommittedLayer{layer_, in_hand_->attempt, in_hand_->assessment};
   in_hand_.reset();
   parts_.feed.offer(layer_);

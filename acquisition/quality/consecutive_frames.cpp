@@ -1,6 +1,17 @@
 #include "acquisition/quality/consecutive_frames.hpp"
 
+#include <utility>
+
+#include "acquisition/quality/accepted_layer.hpp"
+
 namespace biotomy::acquisition {
+
+void ConsecutiveFrames::recall(FaceRecord faces, SharpnessRecord sharpness,
+                               SurfaceRecord surfaces) {
+  expectation_.faces = std::move(faces);
+  expectation_.sharpness = std::move(sharpness);
+  expectation_.surfaces = std::move(surfaces);
+}
 
 Assessment ConsecutiveFrames::judge(const cv::Mat& image, std::int64_t layer) {
   if (expectation_.width == 0) {
@@ -16,12 +27,9 @@ Assessment ConsecutiveFrames::judge(const cv::Mat& image, std::int64_t layer) {
   return assessment;
 }
 
-void ConsecutiveFrames::accept(const Assessment& assessment) {
+void ConsecutiveFrames::accept(const Assessment& assessment, bool flagged) {
   if (!assessment.face) return;
-  expectation_.faces.accept(expectation_.layer, assessment.face, assessment.face_change);
-  expectation_.sharpness.accept(assessment.measures);
-  expectation_.surfaces.accept(expectation_.layer, assessment.surface, assessment.light,
-                               assessment.arrived);
+  accept_layer(expectation_.layer, assessment, flagged, expectation_);
 }
 
 }  // namespace biotomy::acquisition

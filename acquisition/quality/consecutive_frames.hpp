@@ -16,12 +16,16 @@ class ConsecutiveFrames {
   /// A layer's images are of the size and kind of the first.
   explicit ConsecutiveFrames(const QualityThresholds& thresholds) : thresholds_(thresholds) {}
 
+  /// What the next image is compared with, in place of all images before.
+  void recall(FaceRecord faces, SharpnessRecord sharpness, SurfaceRecord surfaces);
+
   /// The next image, CV_8UC3 or CV_16UC3, R G B. Findings name the layers by these numbers, which
   /// may leave some out.
   Assessment judge(const cv::Mat& image, std::int64_t layer);
 
-  /// The image judged last is a layer: the next ones are compared with it.
-  void accept(const Assessment& assessment);
+  /// The image judged last is a layer: the next ones are compared with it; in their sharpness only
+  /// when it has no flag.
+  void accept(const Assessment& assessment, bool flagged);
 
  private:
   QualityThresholds thresholds_;

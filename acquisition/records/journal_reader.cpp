@@ -248,6 +248,19 @@ std::int64_t JournalReader::committed_count() const {
   });
 }
 
+std::vector<std::int64_t> JournalReader::starts() const {
+  return with_journal(state_->path, [&] {
+    SQLite::Statement select(
+        state_->database,
+        "SELECT CAST(substr(text, length(?1) + 1) AS INTEGER) FROM events "
+        "WHERE kind = 'recovery' AND substr(text, 1, length(?1)) = ?1 ORDER BY id");
+    select.bind(1, std::string(kGoesOnWithLayer));
+    std::vector<std::int64_t> layers;
+    while (select.executeStep()) layers.push_back(select.getColumn(0).getInt64());
+    return layers;
+  });
+}
+
 JournalSummary JournalReader::summary() const {
   return with_journal(state_->path, [&] { return summary_of(state_->database, state_->path); });
 }

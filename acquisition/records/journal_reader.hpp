@@ -49,6 +49,10 @@ class JournalReader {
 
   std::int64_t committed_count() const;
 
+  /// The layers at which a job began or went on, in the order of its starts: what it knew of those
+  /// before was what it recalled.
+  std::vector<std::int64_t> starts() const;
+
   JournalSummary summary() const;
 
   /// The highest number of a command in it; 0 if none.

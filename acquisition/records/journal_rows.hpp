@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "acquisition/focus/face_lean.hpp"
@@ -93,6 +94,10 @@ struct JobEventRow {
   std::string text;
   std::string at;  ///< ISO 8601, UTC
 };
+
+/// So begins the text of the event by which a job says at which layer it starts; the number
+/// follows.
+inline constexpr std::string_view kGoesOnWithLayer = "goes on with layer ";
 
 /// A layer whose image is on disk and whose record is committed.
 struct LayerRow {

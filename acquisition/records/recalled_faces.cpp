@@ -10,20 +10,41 @@
 namespace biotomy::acquisition {
 namespace {
 
-/// The casting material's colour in the first layer that shows it, of the sample's first ones.
-std::optional<CastingColour> first_casting(const JournalReader& journal) {
-  constexpr std::int64_t kLayers = 16;
-  for (const LayerRow& layer : journal.committed_layers(1, kLayers)) {
-    CastingColour casting;
-    std::size_t known = 0;
-    for (const Metric& metric : layer.metrics) {
-      for (std::size_t c = 0; c < kCastingMetrics.size(); ++c) {
-        if (metric.name != kCastingMetrics.at(c)) continue;
-        casting.level[static_cast<int>(c)] = metric.value;
-        ++known;
-      }
+/// The casting material's colour as a layer shows it.
+std::optional<CastingColour> casting_of(const LayerRow& layer) {
+  CastingColour casting;
+  std::size_t known = 0;
+  for (const Metric& metric : layer.metrics) {
+    for (std::size_t c = 0; c < kCastingMetrics.size(); ++c) {
+      if (metric.name != kCastingMetrics.at(c)) continue;
+      casting.level[static_cast<int>(c)] = metric.value;
+      ++known;
     }
-    if (known == kCastingMetrics.size()) return casting;
+  }
+  if (known == kCastingMetrics.size()) return casting;
+  return std::nullopt;
+}
+
+/// In the first layer that shows it, which is among the first in most samples.
+std::optional<CastingColour> first_casting(const JournalReader& journal, std::int64_t last) {
+  constexpr std::int64_t kAtATime = 16;
+  for (std::int64_t first = 1; first <= last; first += kAtATime) {
+    const std::int64_t layers = std::min(kAtATime, last - first + 1);
+    for (const LayerRow& layer : journal.committed_layers(first, layers)) {
+      if (auto casting = casting_of(layer)) return casting;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Likewise, of a sample without a journal: in its first images.
+std::optional<CastingColour> first_casting(
+    const reconstruct::SampleFolder& sample, std::int64_t last,
+    const std::function<cv::Mat(const std::filesystem::path&)>& read_layer) {
+  constexpr std::int64_t kLayers = 16;
+  for (std::int64_t layer = 1; layer <= std::min(last, kLayers); ++layer) {
+    const SurfacePrint surface = take_surface_print(read_layer(sample.layer_path(layer)));
+    if (auto casting = find_light(surface, {}).casting) return casting;
   }
   return std::nullopt;
 }
@@ -35,17 +56,24 @@ RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t
   RecalledFaces recalled;
   if (last_committed < 1) return recalled;
 
-  constexpr std::int64_t kLayers = FaceRecord::kRemembered;
-  const std::int64_t first = std::max<std::int64_t>(1, last_committed - kLayers + 1);
-  const JournalReader journal(sample.journal_path());
-  std::int64_t last_sharp = 0;
-  for (const LayerRow& layer : journal.committed_layers(first, kLayers)) {
-    if (!layer.flagged) last_sharp = layer.layer;
-    for (const Metric& metric : layer.metrics) {
-      if (metric.name == kFaceChange) recalled.faces.recall(metric.value);
+  std::int64_t last_sharp = last_committed;
+  std::optional<CastingColour> casting;
+  if (std::filesystem::exists(sample.journal_path())) {
+    constexpr std::int64_t kLayers = FaceRecord::kRemembered;
+    const std::int64_t first = std::max<std::int64_t>(1, last_committed - kLayers + 1);
+    const JournalReader journal(sample.journal_path());
+    last_sharp = 0;
+    for (const LayerRow& layer : journal.committed_layers(first, last_committed - first + 1)) {
+      if (!layer.flagged) last_sharp = layer.layer;
+      for (const Metric& metric : layer.metrics) {
+        if (metric.name == kFaceChange) recalled.faces.recall(metric.value);
+      }
     }
+    casting = first_casting(journal, last_committed);
+  } else {
+    casting = first_casting(sample, last_committed, read_layer);
   }
-  if (const auto casting = first_casting(journal)) recalled.surfaces.recall(*casting);
+  if (casting) recalled.surfaces.recall(*casting);
   const cv::Mat image = read_layer(sample.layer_path(last_committed));
   const auto face = std::make_shared<const FacePrint>(take_face_print(image));
   recalled.faces.saw(*face);

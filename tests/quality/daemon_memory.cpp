@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "acquisition/quality/accepted_layer.hpp"
 #include "acquisition/quality/frame_measures.hpp"
 
 namespace biotomy::tests {
@@ -25,10 +26,7 @@ void DaemonMemory::accepted(const bridge::Frame& frame, const acquisition::Asses
   expectation_.previous_timestamp = frame.sensor_timestamp;
   if (!assessment.face) return;
   expectation_.faces.saw(*assessment.face);
-  expectation_.faces.accept(expectation_.layer, assessment.face, assessment.face_change);
-  expectation_.sharpness.accept(assessment.measures);
-  expectation_.surfaces.accept(expectation_.layer, assessment.surface, assessment.light,
-                               assessment.arrived);
+  acquisition::accept_layer(expectation_.layer, assessment, false, expectation_);
 }
 
 }  // namespace biotomy::tests

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,7 +9,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "acquisition/quality/accepted_layer.hpp"
 #include "acquisition/records/layer_journal.hpp"
+#include "acquisition/records/recalled_faces.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/sample/layer_image.hpp"
 #include "reconstruct/sample/sample_folder.hpp"
@@ -202,6 +206,112 @@ TEST_F(QcCommand, ShowsASamplesLayersBesideWhatTheJournalSaysOfThem) {
   EXPECT_THAT(text,
               HasSubstr("journal: attempt 1, 2026-01-02T03:04:05Z, rejected: it was blurred"));
   EXPECT_THAT(text, HasSubstr("in the journal     0.123"));
+}
+
+/// A face in casting material, under a lamp that fades; what it shows changes ever faster.
+cv::Mat face_in_casting(int layer, double blur) {
+  cv::Mat image(180, 240, CV_32FC3, cv::Scalar(150.0, 140.0, 125.0));
+  const cv::Rect middle(24, 18, 192, 144);
+  const double part = (0.15 + 0.003 * layer) * layer;
+  cv::Mat older(middle.size(), CV_32FC3);
+  cv::Mat newer(middle.size(), CV_32FC3);
+  cv::RNG(1).fill(older, cv::RNG::NORMAL, 100.0, 60.0);
+  cv::RNG(2).fill(newer, cv::RNG::NORMAL, 100.0, 60.0);
+  cv::Mat(std::cos(part) * (older - cv::Scalar::all(100.0)) +
+          std::sin(part) * (newer - cv::Scalar::all(100.0)) + cv::Scalar::all(100.0))
+      .copyTo(image(middle));
+  cv::GaussianBlur(image, image, {}, blur);
+  image *= 1.0 - 0.004 * layer;
+  cv::Mat grain(image.size(), CV_32FC3);
+  cv::RNG(static_cast<std::uint64_t>(layer) + 100).fill(grain, cv::RNG::NORMAL, 0.0, 1.5);
+  image += grain;
+  image.convertTo(image, CV_8U);
+  return image;
+}
+
+/// A sample as a daemon leaves it that stored every layer, with a flag those out of focus, and was
+/// started again in between.
+class QcOfASample : public QcCommand {
+ protected:
+  static constexpr int kLayers = 40;
+  static constexpr int kStartedAgain = 27;
+  static bool is_flagged(int layer) { return layer == 20 || layer == 21; }
+
+  QcOfASample() {
+    acquisition::LayerJournal journal(sample_.journal_path());
+    acquisition::FrameExpectation known;
+    known.width = 240;
+    known.height = 180;
+    known.type = CV_8UC3;
+    for (int layer = 1; layer <= kLayers; ++layer) {
+      if (layer == 1 || layer == kStartedAgain) {
+        acquisition::RecalledFaces recalled =
+            acquisition::recall_faces(sample_, layer - 1, reconstruct::read_layer_image);
+        known.faces = recalled.faces;
+        known.sharpness = recalled.sharpness;
+        known.surfaces = recalled.surfaces;
+        journal.record_event({.kind = "recovery",
+                              .state = "recovering",
+                              .layer = 0,
+                              .text = "goes on with layer " + std::to_string(layer),
+                              .at = "2026-01-02T03:04:05Z"});
+      }
+      bridge::Frame frame;
+      frame.image = face_in_casting(layer, is_flagged(layer) ? 0.88 : 0.8);
+      known.layer = layer;
+      acquisition::AttemptRow row;
+      row.layer = layer;
+      row.attempt = 1;
+      row.taken_at = "2026-01-02T03:04:05Z";
+      row.assessment = acquisition::assess(frame, known, {});
+      known.faces.saw(*row.assessment.face);
+      acquisition::accept_layer(layer, row.assessment, is_flagged(layer), known);
+      row.assessment.verdict = is_flagged(layer) ? acquisition::Verdict::accepted_with_flag
+                                                 : acquisition::Verdict::accepted;
+      reconstruct::write_layer_image(sample_.layer_path(layer), frame.image, {layer, {10, 10, 20}},
+                                     {});
+      journal.commit_layer(row, 1, "2026-01-02T03:04:05Z");
+    }
+  }
+
+  /// Every metric of these layers as the journal has it, and every verdict.
+  void expect_as_journalled(const std::string& layers, int first, int last) const {
+    const json document = json::parse(
+        run({"--sample", sample_.path().string(), "--layers", layers, "--json"}).output);
+    ASSERT_EQ(document.at("frames").size(), static_cast<std::size_t>(last - first + 1));
+    for (const json& entry : document.at("frames")) {
+      const json& then = entry.at("journal").at(0);
+      EXPECT_EQ(entry.at("verdict"), then.at("verdict")) << entry.at("layer") << then.at("reason");
+      const json& now = entry.at("metrics");
+      ASSERT_EQ(now.size(), then.at("metrics").size()) << entry.at("layer");
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        const json& metric = now.at(i);
+        const json& journalled = then.at("metrics").at(i);
+        EXPECT_EQ(metric.at("name"), journalled.at("name"));
+        for (const char* key : {"value", "limit"}) {
+          EXPECT_NEAR(metric.at(key).get<double>(), journalled.at(key).get<double>(), 1e-6)
+              << entry.at("layer") << ": " << metric.at("name") << " " << key;
+        }
+      }
+    }
+  }
+
+  reconstruct::SampleFolder sample_ = reconstruct::SampleFolder::create(
+      folder_ / "s", {.name = "s",
+                      .cuboid = {{240, 180, kLayers}, {10, 10, 20}},
+                      .bits = 8,
+                      .notes = "",
+                      .created = ""});
+};
+
+TEST_F(QcOfASample, SaysOfEachLayerWhatTheDaemonSaid) {
+  expect_as_journalled("1..40", 1, 40);
+}
+
+TEST_F(QcOfASample, SaysTheSameOfLayersInItsMiddle) {
+  expect_as_journalled("19..26", 19, 26);
+  expect_as_journalled("27..29", 27, 29);
+  expect_as_journalled("40", 40, 40);
 }
 
 TEST_F(QcCommand, NamesTheLayerThatALayerWasComparedWith) {

@@ -112,5 +112,29 @@ TEST(RecalledFaces, HaveTheLastSurfaceAndTheFirstCastingMaterial) {
   EXPECT_DOUBLE_EQ(surfaces.first_casting()->level[2], 0.2);
 }
 
+TEST(RecalledFaces, AreThoseUpToALayerAmongMany) {
+  Past past;
+  for (std::int64_t layer = 1; layer <= 12; ++layer) {
+    past.commit(layer, layer <= 4 ? 0.2 : 0.001);
+  }
+  EXPECT_DOUBLE_EQ(past.recall(4).faces.least_change().value(), 0.2);
+}
+
+TEST(RecalledFaces, HaveTheFirstCastingMaterialHoweverDeepItBegins) {
+  Past past;
+  for (std::int64_t layer = 1; layer <= 24; ++layer) {
+    AttemptRow attempt;
+    attempt.layer = layer;
+    attempt.attempt = 1;
+    attempt.assessment.verdict = Verdict::accepted;
+    for (const char* name : kCastingMetrics) {
+      const double level = 0.01 * static_cast<double>(layer);
+      if (layer >= 20) attempt.assessment.metrics.push_back({name, level, 1.0, true});
+    }
+    past.journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
+  }
+  EXPECT_DOUBLE_EQ(past.recall(24).surfaces.first_casting().value().level[0], 0.2);
+}
+
 }  // namespace
 }  // namespace biotomy::tests
