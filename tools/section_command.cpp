@@ -121,7 +121,8 @@ Picture picture_of(Section& section, bool scale_bar, const reconstruct::Colour& 
   }
   const reconstruct::FrameCanvas canvas(
       image.size(), "", background, reconstruct::scale_bar(image.cols, section.outline.grid.pixel));
-  return {canvas.draw(image, ""), canvas.place_of(image.size())};
+  const cv::Point first = canvas.place_of(image.size());
+  return {canvas.draw(image, first, ""), first};
 }
 
 void run_section(const SectionArguments& arguments, const CLI::App& command) {

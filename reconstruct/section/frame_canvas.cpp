@@ -90,18 +90,24 @@ cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {
   return frame;
 }
 
-cv::Point FrameCanvas::place_of(cv::Size picture) const {
-  const cv::Size room(size_.width, size_.height - strip_height_);
-  if (picture.width > room.width || picture.height > room.height) {
-    throw InvalidRequest("a picture is larger than the canvas of its series");
-  }
-  return {(room.width - picture.width) / 2, (room.height - picture.height) / 2};
+cv::Size FrameCanvas::room() const {
+  return {size_.width, size_.height - strip_height_};
 }
 
-cv::Mat FrameCanvas::draw(const cv::Mat& picture, const std::string& label) const {
-  const cv::Rect centred(place_of(picture.size()), picture.size());
+cv::Point FrameCanvas::place_of(cv::Size picture) const {
+  if (picture.width > room().width || picture.height > room().height) {
+    throw InvalidRequest("a picture is larger than the canvas of its series");
+  }
+  return {(room().width - picture.width) / 2, (room().height - picture.height) / 2};
+}
+
+cv::Mat FrameCanvas::draw(const cv::Mat& picture, cv::Point place, const std::string& label) const {
+  const cv::Rect part(place, picture.size());
+  if ((part & cv::Rect({0, 0}, room())) != part) {
+    throw InvalidRequest("a picture does not lie on the canvas of its series");
+  }
   cv::Mat frame = draw_empty(picture.type(), label);
-  picture.copyTo(frame(centred));
+  picture.copyTo(frame(part));
   return frame;
 }
 

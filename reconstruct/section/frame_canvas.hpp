@@ -27,14 +27,15 @@ class FrameCanvas {
   /// picture that is larger than the largest.
   cv::Point place_of(cv::Size picture) const;
 
-  /// `picture` (CV_8UC3 or CV_16UC3, R G B, no larger than the largest) centred on the background,
-  /// the label in the strip.
-  cv::Mat draw(const cv::Mat& picture, const std::string& label) const;
+  /// `picture` (CV_8UC3 or CV_16UC3, R G B) with its first pixel at `place` on the background, the
+  /// label in the strip. Throws InvalidRequest where it does not lie in the room for pictures.
+  cv::Mat draw(const cv::Mat& picture, cv::Point place, const std::string& label) const;
 
   /// The background with its label and its scale bar alone; `type` is CV_8UC3 or CV_16UC3.
   cv::Mat draw_empty(int type, const std::string& label) const;
 
  private:
+  cv::Size room() const;
   int strip_width(int label_width) const;
   void draw_bar(cv::Mat& frame, int baseline) const;
 

@@ -38,6 +38,17 @@ PixelGrid pixel_grid(const ThetaRectangle& rectangle, double pixel, int bytes_pe
   return {rectangle, pixel, static_cast<int>(columns), static_cast<int>(rows)};
 }
 
+PixelGrid shifted_grid(const PixelGrid& grid, double columns, double rows) {
+  const double right = columns * grid.pixel;
+  const double down = rows * grid.pixel;
+  ThetaRectangle rectangle = grid.rectangle;
+  rectangle.origin = rectangle.origin + right * rectangle.axes.p + down * rectangle.axes.q;
+  rectangle.width = std::max(rectangle.width - right, 0.0);
+  rectangle.height = std::max(rectangle.height - down, 0.0);
+  return {rectangle, grid.pixel, static_cast<int>(pixels_along(rectangle.width, grid.pixel)),
+          static_cast<int>(pixels_along(rectangle.height, grid.pixel))};
+}
+
 VoxelRow voxel_row(const PixelGrid& grid, const PyramidLevel& level, int row) {
   const ThetaRectangle& rectangle = grid.rectangle;
   const Vector3 start = rectangle.origin + (row * grid.pixel) * rectangle.axes.q - level.origin;

@@ -23,6 +23,10 @@ struct PixelGrid {
 PixelGrid pixel_grid(const ThetaRectangle& rectangle, double pixel, int bytes_per_pixel,
                      std::int64_t max_bytes);
 
+/// The grid whose first pixel lies further on by `columns` and `rows` of a pixel, both from 0 to
+/// below 1, in what is left of the rectangle: which must hold a pixel there.
+PixelGrid shifted_grid(const PixelGrid& grid, double columns, double rows);
+
 /// A row of pixel centres in voxel coordinates, in the order x, y, z: the centre of column u lies
 /// at start + u·step. Each coordinate is computed from u in double precision, so that nothing adds
 /// up along a row: at column 20 000 the error is below 10⁻¹¹ voxel.

@@ -146,7 +146,8 @@ Series rotation_series(const Rotation& rotation, BasisKind kind, const Cuboid& c
   };
   const SectionBasis first = section_basis(kind, plane_at(values.front()));
   for (const double value : values) {
-    series.frames.push_back({value, plane_at(value), Turn(axis, value - values.front())(first)});
+    series.frames.push_back(
+        {value, plane_at(value), Turn(axis, value - values.front())(first), through});
   }
   return series;
 }
@@ -162,8 +163,8 @@ Series translation_series(const Translation& translation, BasisKind kind, const 
   Series series = empty_series("um", values);
   const SectionBasis basis = section_basis(kind, at_zero);
   for (const double value : values) {
-    const Plane plane = Plane::from_normal(at_zero.normal(), through + value * at_zero.normal());
-    series.frames.push_back({value, plane, basis});
+    const Vector3 moved = through + value * at_zero.normal();
+    series.frames.push_back({value, Plane::from_normal(at_zero.normal(), moved), basis, moved});
   }
   return series;
 }

@@ -36,6 +36,8 @@ struct SeriesFrame {
   double value = 0.0;  ///< degrees or micrometres
   Plane plane;
   SectionBasis basis;
+  Vector3
+      reference;  ///< a point of the plane: of the axis it turns about, or moved along its normal
 };
 
 /// The planes of a series, in order. Their bases turn with the planes, rigidly, from the first

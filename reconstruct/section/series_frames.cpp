@@ -5,47 +5,9 @@
 #include <utility>
 
 #include "reconstruct/errors.hpp"
-#include "reconstruct/geometry/section_polygon.hpp"
 
 namespace biotomy::reconstruct {
 namespace {
-
-using Outlines = std::vector<std::optional<SectionOutline>>;
-
-Outlines outlines_of(const BrickSource& source, const Series& series, const SectionStyle& style) {
-  Outlines outlines;
-  for (const SeriesFrame& frame : series.frames) {
-    const bool cuts = contact(frame.plane, source.cuboid()).vertices.size() >= 3;
-    outlines.push_back(cuts ? std::optional(outline_section(source.cuboid(), source.bits(),
-                                                            {frame.plane, frame.basis, style}))
-                            : std::nullopt);
-  }
-  return outlines;
-}
-
-cv::Size size_of(const SectionOutline& outline) {
-  return {outline.grid.columns, outline.grid.rows};
-}
-
-cv::Size largest(const Outlines& outlines) {
-  cv::Size size;
-  for (const auto& outline : outlines) {
-    if (outline) {
-      size.width = std::max(size.width, outline->grid.columns);
-      size.height = std::max(size.height, outline->grid.rows);
-    }
-  }
-  if (size.empty()) {
-    throw SampleError("no plane of the series cuts the sample: check its axis, point and range");
-  }
-  return size;
-}
-
-double pixel_of(const Outlines& outlines) {
-  const auto cut = std::find_if(outlines.begin(), outlines.end(),
-                                [](const auto& outline) { return outline.has_value(); });
-  return cut == outlines.end() ? 0.0 : (*cut)->grid.pixel;
-}
 
 std::string longest_label(const Series& series) {
   std::string longest;
@@ -56,14 +18,13 @@ std::string longest_label(const Series& series) {
   return longest;
 }
 
-FrameCanvas canvas_for(const Outlines& outlines, const Series& series, const Colour& background,
+FrameCanvas canvas_for(const SeriesLayout& layout, const Series& series, const Colour& background,
                        FrameMarks marks) {
-  const cv::Size size = largest(outlines);
   std::optional<ScaleBar> bar;
   if (marks.scale_bar) {
-    bar = scale_bar(size.width, pixel_of(outlines));
+    bar = scale_bar(layout.size.width, layout.pixel);
   }
-  return {size, marks.label ? longest_label(series) : "", background, bar};
+  return {layout.size, marks.label ? longest_label(series) : "", background, bar};
 }
 
 }  // namespace
@@ -74,9 +35,8 @@ SeriesFrames::SeriesFrames(BrickSource& source, Series series, const SectionStyl
       series_(std::move(series)),
       style_(style),
       marks_(marks),
-      outlines_(outlines_of(source, series_, style)),
-      pixel_(pixel_of(outlines_)),
-      canvas_(canvas_for(outlines_, series_, style.background, marks)) {
+      layout_(series_layout(source.cuboid(), source.bits(), series_, style)),
+      canvas_(canvas_for(layout_, series_, style.background, marks)) {
   const double bytes = static_cast<double>(canvas_.size().width) * canvas_.size().height *
                        static_cast<double>(CV_ELEM_SIZE(frame_type()));
   if (bytes > static_cast<double>(style.max_bytes)) {
@@ -89,11 +49,11 @@ int SeriesFrames::frame_type() const {
 }
 
 const std::optional<SectionOutline>& SeriesFrames::outline(std::size_t index) const {
-  return outlines_.at(index);
+  return layout_.outlines.at(index);
 }
 
 cv::Point SeriesFrames::first_pixel(std::size_t index) const {
-  return canvas_.place_of(size_of(outlines_.at(index).value()));
+  return canvas_.place_of(layout_.size) + layout_.places.at(index);
 }
 
 std::string SeriesFrames::label(std::size_t index) const {
@@ -101,13 +61,13 @@ std::string SeriesFrames::label(std::size_t index) const {
 }
 
 SampledImage SeriesFrames::draw(std::size_t index, const OnRows& on_rows) const {
-  const std::optional<SectionOutline>& outline = outlines_.at(index);
+  const std::optional<SectionOutline>& outline = layout_.outlines.at(index);
   if (!outline) {
     return {canvas_.draw_empty(frame_type(), label(index)), {}};
   }
   const SampledImage sampled =
       sample_grid(source_, outline->grid, style_.interpolation, style_.background, on_rows);
-  return {canvas_.draw(sampled.image, label(index)), sampled.statistics};
+  return {canvas_.draw(sampled.image, first_pixel(index), label(index)), sampled.statistics};
 }
 
 }  // namespace biotomy::reconstruct

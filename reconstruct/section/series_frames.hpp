@@ -11,6 +11,7 @@
 #include "reconstruct/section/frame_canvas.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/series.hpp"
+#include "reconstruct/section/series_layout.hpp"
 
 namespace biotomy::reconstruct {
 
@@ -23,8 +24,9 @@ struct FrameMarks {
   bool scale_bar = true;
 };
 
-/// The pictures of a series, all of one size. Frames may be drawn in any order; drawn in theirs,
-/// each finds in the source's cache most chunks that the one before has read.
+/// The pictures of a series, all of one size, laid over each other as series_layout says. Frames
+/// may be drawn in any order; drawn in theirs, each finds in the source's cache most chunks that
+/// the one before has read.
 class SeriesFrames {
  public:
   /// `source` must outlive it. Throws SampleError when no plane of the series cuts the sample, or
@@ -34,11 +36,11 @@ class SeriesFrames {
 
   std::size_t count() const { return series_.frames.size(); }
   cv::Size frame_size() const { return canvas_.size(); }
-  double pixel() const { return pixel_; }  ///< micrometres
-  int frame_type() const;                  ///< CV_8UC3 or CV_16UC3
+  double pixel() const { return layout_.pixel; }  ///< micrometres
+  int frame_type() const;                         ///< CV_8UC3 or CV_16UC3
   const Series& series() const { return series_; }
 
-  /// The section of a frame; none where the plane does not cut the sample.
+  /// The section of a frame, its grid as it is drawn; none where the plane does not cut the sample.
   const std::optional<SectionOutline>& outline(std::size_t index) const;
 
   /// The frame's pixel that is pixel (0, 0) of its section, which there must be.
@@ -57,8 +59,7 @@ class SeriesFrames {
   Series series_;
   SectionStyle style_;
   FrameMarks marks_;
-  std::vector<std::optional<SectionOutline>> outlines_;
-  double pixel_ = 0.0;
+  SeriesLayout layout_;
   FrameCanvas canvas_;
 };
 

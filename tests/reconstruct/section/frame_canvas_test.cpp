@@ -28,7 +28,7 @@ TEST(FrameCanvas, PutsThePictureInTheMiddleUntouched) {
   cv::Mat picture(100, 150, CV_8UC3);
   cv::RNG random(1);
   random.fill(picture, cv::RNG::UNIFORM, 0, 256);
-  const cv::Mat frame = canvas.draw(picture, "+000.0 deg");
+  const cv::Mat frame = canvas.draw(picture, canvas.place_of(picture.size()), "+000.0 deg");
   ASSERT_EQ(frame.size(), canvas.size());
   EXPECT_EQ(cv::norm(frame(cv::Rect(75, 50, 150, 100)), picture, cv::NORM_INF), 0.0);
   EXPECT_EQ(frame.at<cv::Vec3b>(0, 0), kBackgroundPixel);
@@ -114,7 +114,11 @@ TEST(FrameCanvas, SaysWhereAPictureLies) {
 
 TEST(FrameCanvas, RefusesAPictureLargerThanTheLargest) {
   const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
-  EXPECT_THROW(canvas.draw(cv::Mat(203, 300, CV_8UC3), "+000.0 deg"), InvalidRequest);
+  EXPECT_THROW(canvas.place_of({300, 203}), InvalidRequest);
+  for (const cv::Point place : {cv::Point(0, 0), cv::Point(-1, 0), cv::Point(0, 4)}) {
+    EXPECT_THROW(canvas.draw(cv::Mat(place == cv::Point() ? 203 : 200, 300, CV_8UC3), place, ""),
+                 InvalidRequest);
+  }
 }
 
 }  // namespace
