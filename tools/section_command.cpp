@@ -5,19 +5,21 @@
 #include <iostream>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <opencv2/core/mat.hpp>
 #include <sys/resource.h>
 
 #include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/disk/durable_file.hpp"
+#include "reconstruct/errors.hpp"
 #include "reconstruct/interruption.hpp"
 #include "reconstruct/section/cache_need.hpp"
 #include "reconstruct/section/frame_canvas.hpp"
 #include "reconstruct/section/parameter_text.hpp"
+#include "reconstruct/section/sampler.hpp"
 #include "reconstruct/section/scale_bar.hpp"
 #include "reconstruct/section/section.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -37,7 +39,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using reconstruct::OpenedSample;
-using reconstruct::Section;
+using reconstruct::PixelGrid;
+using reconstruct::SampleError;
+using reconstruct::SampleStatistics;
+using reconstruct::SectionStyle;
 using reconstruct::Volume;
 using reconstruct::VolumeBricks;
 
@@ -67,15 +72,16 @@ struct Durations {
 
 // Reading, decoding and sampling go on in several threads at once: their seconds are the threads'
 // added up.
-void print_statistics(const Section& section, const Volume& volume, const Durations& durations) {
+void print_statistics(const PixelGrid& grid, const SampleStatistics& sampled, const Volume& volume,
+                      const Durations& durations) {
   const auto& read = volume.statistics();
   const nlohmann::ordered_json line{
-      {"pixels", std::int64_t{section.outline.grid.columns} * section.outline.grid.rows},
-      {"chunks_touched", section.statistics.chunks_touched},
+      {"pixels", std::int64_t{grid.columns} * grid.rows},
+      {"chunks_touched", sampled.chunks_touched},
       {"bytes_read", read.bytes_read.load()},
       {"read_s", 1e-9 * static_cast<double>(read.read_ns.load())},
       {"decode_s", 1e-9 * static_cast<double>(read.decode_ns.load())},
-      {"sample_s", section.statistics.sample_s},
+      {"sample_s", sampled.sample_s},
       {"section_s", durations.section.count()},
       {"encode_s", durations.encode.count()},
       {"peak_rss_bytes", peak_rss_bytes()},
@@ -87,42 +93,48 @@ std::filesystem::path sidecar_of(std::filesystem::path picture) {
   return picture.replace_extension(".json");
 }
 
-/// The chunks are gone when it returns: encoding the picture needs the memory.
-Section cut(const OpenedSample& sample, const reconstruct::SectionRequest& request,
-            const SectionChoices& chosen, const std::string& output) {
-  const Volume& volume = sample.volume;
-  const int columns =
-      reconstruct::outline_section(volume.cuboid(), volume.bits(), request).grid.columns;
-  VolumeBricks source(
-      volume,
-      std::min(chosen.cache_bytes, reconstruct::cache_for_one_section(columns, volume.bits())),
-      chosen.damage, &sample.tail);
-  ProgressBar progress("Cutting", "rows");
-  Section section =
-      reconstruct::cut_section(source, request, [&](std::int64_t done, std::int64_t total) {
-        reconstruct::stop_here_if(&Interruption::requested,
-                                  output + ": interrupted; the picture was not written");
-        progress.update(done, total);
-      });
-  warn_of(source.damage());
-  return section;
-}
-
 struct Picture {
   cv::Mat image;
   cv::Point first;  // pixel of the section
 };
 
-/// The section's picture, with a strip below it for the scale bar if there is to be one.
-Picture picture_of(Section& section, bool scale_bar, const reconstruct::Colour& background) {
-  cv::Mat image = std::exchange(section.image, {});
+/// Of the section's size; with a scale bar larger by the strip below that the bar is in.
+Picture empty_picture(const PixelGrid& grid, int bits, const SectionStyle& style, bool scale_bar) {
+  const int type = bits == 16 ? CV_16UC3 : CV_8UC3;
+  const cv::Size size(grid.columns, grid.rows);
   if (!scale_bar) {
-    return {image, {0, 0}};
+    return {cv::Mat(size, type), {0, 0}};
   }
-  const reconstruct::FrameCanvas canvas(
-      image.size(), "", background, reconstruct::scale_bar(image.cols, section.outline.grid.pixel));
-  const cv::Point first = canvas.place_of(image.size());
-  return {canvas.draw(image, first, ""), first};
+  const reconstruct::FrameCanvas canvas(size, "", style.background,
+                                        reconstruct::scale_bar(size.width, grid.pixel));
+  if (canvas.bytes(type) > static_cast<double>(style.max_bytes)) {
+    throw SampleError(
+        "the picture with its scale bar is too large for memory: ask for a larger pixel, or leave "
+        "out --scale-bar");
+  }
+  return {canvas.draw_empty(type, ""), canvas.place_of(size)};
+}
+
+/// Draws the section into the picture. The chunks are gone when it returns: encoding the picture
+/// needs the memory.
+SampleStatistics cut(const OpenedSample& sample, const PixelGrid& grid, const SectionStyle& style,
+                     const SectionChoices& chosen, const std::string& output, Picture& picture) {
+  const Volume& volume = sample.volume;
+  VolumeBricks source(
+      volume,
+      std::min(chosen.cache_bytes, reconstruct::cache_for_one_section(grid.columns, volume.bits())),
+      chosen.damage, &sample.tail);
+  ProgressBar progress("Cutting", "rows");
+  cv::Mat part = picture.image({picture.first, cv::Size(grid.columns, grid.rows)});
+  const SampleStatistics statistics = reconstruct::sample_grid(
+      source, grid, style.interpolation, style.background, part,
+      [&](std::int64_t done, std::int64_t total) {
+        reconstruct::stop_here_if(&Interruption::requested,
+                                  output + ": interrupted; the picture was not written");
+        progress.update(done, total);
+      });
+  warn_of(source.damage());
+  return statistics;
 }
 
 void run_section(const SectionArguments& arguments, const CLI::App& command) {
@@ -140,20 +152,22 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
   sample.require_layers();
   const reconstruct::Cuboid& cuboid = sample.volume.cuboid();
   const reconstruct::Plane plane = plane_of(arguments.plane, chosen.unit, cuboid);
-  Section section = cut(sample,
-                        {plane, reconstruct::section_basis(chosen.basis, plane),
-                         style_for(chosen, arguments.options, cuboid.spacing)},
-                        chosen, arguments.output);
+  const SectionStyle style = style_for(chosen, arguments.options, cuboid.spacing);
+  const reconstruct::SectionOutline outline =
+      reconstruct::outline_section(cuboid, sample.volume.bits(),
+                                   {plane, reconstruct::section_basis(chosen.basis, plane), style});
+  Picture picture = empty_picture(outline.grid, sample.volume.bits(), style, arguments.scale_bar);
+  const SampleStatistics statistics =
+      cut(sample, outline.grid, style, chosen, arguments.output, picture);
   durations.section = Clock::now() - start;
   start = Clock::now();
-  const Picture picture = picture_of(section, arguments.scale_bar, chosen.style.background);
   const reconstruct::SectionRecord record{sample.folder.description().name,
                                           cuboid,
                                           plane,
-                                          section.outline,
+                                          outline,
                                           picture.image.size(),
                                           picture.first,
-                                          section.statistics.levels,
+                                          statistics.levels,
                                           command_parameters(command)};
   reconstruct::write_section_image(arguments.output, picture.image,
                                    reconstruct::picture_notes(record), quality);
@@ -164,7 +178,7 @@ void run_section(const SectionArguments& arguments, const CLI::App& command) {
         reconstruct::json_text(reconstruct::to_json(record), kSidecarIndentation) + '\n');
   }
   if (arguments.stats) {
-    print_statistics(section, sample.volume, durations);
+    print_statistics(outline.grid, statistics, sample.volume, durations);
   }
 }
 

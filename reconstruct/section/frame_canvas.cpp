@@ -11,7 +11,8 @@ namespace biotomy::reconstruct {
 namespace {
 
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;  // has ASCII alone: "um" and not the Greek letter
-constexpr double kWidthForFullSize = 800.0;      // pixels; wider pictures get larger letters
+constexpr double kWidthForFullSize = 800.0;      // pixels; larger pictures get larger letters
+constexpr double kHeightForFullSize = 200.0;     // so that the strip stays lower than the picture
 constexpr double kLeastTextScale = 0.5;
 constexpr int kMargin = 8;
 constexpr double kLevels8To16 = 257.0;
@@ -47,7 +48,8 @@ int text_width(const std::string& text, double text_scale) {
 
 FrameCanvas::FrameCanvas(cv::Size largest_picture, const std::string& longest_label,
                          const Colour& background, std::optional<ScaleBar> bar)
-    : text_scale_(std::max(kLeastTextScale, largest_picture.width / kWidthForFullSize)),
+    : text_scale_(std::max(kLeastTextScale, std::min(largest_picture.width / kWidthForFullSize,
+                                                     largest_picture.height / kHeightForFullSize))),
       background_(background),
       ink_(ink_on(background)),
       bar_(std::move(bar)) {
@@ -90,6 +92,10 @@ cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {
   return frame;
 }
 
+double FrameCanvas::bytes(int type) const {
+  return static_cast<double>(size_.width) * size_.height * static_cast<double>(CV_ELEM_SIZE(type));
+}
+
 cv::Size FrameCanvas::room() const {
   return {size_.width, size_.height - strip_height_};
 }
@@ -101,14 +107,11 @@ cv::Point FrameCanvas::place_of(cv::Size picture) const {
   return {(room().width - picture.width) / 2, (room().height - picture.height) / 2};
 }
 
-cv::Mat FrameCanvas::draw(const cv::Mat& picture, cv::Point place, const std::string& label) const {
-  const cv::Rect part(place, picture.size());
-  if ((part & cv::Rect({0, 0}, room())) != part) {
+cv::Mat FrameCanvas::part_for(const cv::Rect& picture, cv::Mat& frame) const {
+  if ((picture & cv::Rect({0, 0}, room())) != picture) {
     throw InvalidRequest("a picture does not lie on the canvas of its series");
   }
-  cv::Mat frame = draw_empty(picture.type(), label);
-  picture.copyTo(frame(part));
-  return frame;
+  return frame(picture);
 }
 
 }  // namespace biotomy::reconstruct

@@ -37,9 +37,7 @@ SeriesFrames::SeriesFrames(BrickSource& source, Series series, const SectionStyl
       marks_(marks),
       layout_(series_layout(source.cuboid(), source.bits(), series_, style)),
       canvas_(canvas_for(layout_, series_, style.background, marks)) {
-  const double bytes = static_cast<double>(canvas_.size().width) * canvas_.size().height *
-                       static_cast<double>(CV_ELEM_SIZE(frame_type()));
-  if (bytes > static_cast<double>(style.max_bytes)) {
+  if (canvas_.bytes(frame_type()) > static_cast<double>(style.max_bytes)) {
     throw SampleError("the frames of the series are too large for memory: ask for a larger pixel");
   }
 }
@@ -61,13 +59,15 @@ std::string SeriesFrames::label(std::size_t index) const {
 }
 
 SampledImage SeriesFrames::draw(std::size_t index, const OnRows& on_rows) const {
-  const std::optional<SectionOutline>& outline = layout_.outlines.at(index);
-  if (!outline) {
-    return {canvas_.draw_empty(frame_type(), label(index)), {}};
+  SampledImage frame{canvas_.draw_empty(frame_type(), label(index)), {}};
+  if (const std::optional<SectionOutline>& outline = layout_.outlines.at(index)) {
+    const PixelGrid& grid = outline->grid;
+    cv::Mat picture =
+        canvas_.part_for({first_pixel(index), cv::Size(grid.columns, grid.rows)}, frame.image);
+    frame.statistics =
+        sample_grid(source_, grid, style_.interpolation, style_.background, picture, on_rows);
   }
-  const SampledImage sampled =
-      sample_grid(source_, outline->grid, style_.interpolation, style_.background, on_rows);
-  return {canvas_.draw(sampled.image, first_pixel(index), label(index)), sampled.statistics};
+  return frame;
 }
 
 }  // namespace biotomy::reconstruct

@@ -116,6 +116,22 @@ TEST_F(SectionAndSeries, AScaleBarLiesBelowTheSectionAndTheRecordKnows) {
   EXPECT_EQ(cv::norm(with_bar.rowRange(part.br().y, with_bar.rows), cv::NORM_INF), 255.0);
 }
 
+TEST_F(SectionAndSeries, AScaleBarTakesLittleMemoryBesideAWidePicture) {
+  section(folder_ / "a.png",
+          {"--scale-bar", "--pixel", "0.004", "--theta", "custom:0,0,40,390,0.04,0"});
+  const cv::Mat wide = read_image_file(folder_ / "a.png");
+  EXPECT_EQ(wide.cols, 97'502);
+  EXPECT_LT(wide.rows, 60);
+}
+
+TEST_F(SectionAndSeries, AScaleBarThatMakesAPictureTooLargeIsRefused) {
+  const std::vector<std::string> wide{"--pixel", "0.00001", "--theta",
+                                      "custom:0,0,40,390,0.00001,0", "--scale-bar"};
+  EXPECT_THAT(message_of<SampleError>([&] { section(folder_ / "a.png", wide); }),
+              HasSubstr("with its scale bar is too large for memory"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.png"));
+}
+
 TEST_F(SectionAndSeries, ASectionsPlaneCanBeTakenAgain) {
   run({"section", sample_, "--tilt", "33", "--azimuth", "77", "--json", "-o", folder_ / "a.png"});
   for (const char* record : {"a.png", "a.json"}) {

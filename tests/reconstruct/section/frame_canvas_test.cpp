@@ -28,7 +28,8 @@ TEST(FrameCanvas, PutsThePictureInTheMiddleUntouched) {
   cv::Mat picture(100, 150, CV_8UC3);
   cv::RNG random(1);
   random.fill(picture, cv::RNG::UNIFORM, 0, 256);
-  const cv::Mat frame = canvas.draw(picture, canvas.place_of(picture.size()), "+000.0 deg");
+  cv::Mat frame = canvas.draw_empty(CV_8UC3, "+000.0 deg");
+  picture.copyTo(canvas.part_for({canvas.place_of(picture.size()), picture.size()}, frame));
   ASSERT_EQ(frame.size(), canvas.size());
   EXPECT_EQ(cv::norm(frame(cv::Rect(75, 50, 150, 100)), picture, cv::NORM_INF), 0.0);
   EXPECT_EQ(frame.at<cv::Vec3b>(0, 0), kBackgroundPixel);
@@ -106,6 +107,15 @@ TEST(FrameCanvas, KeepsNoRoomForWhatIsNotWanted) {
       0.0);
 }
 
+TEST(FrameCanvas, TakesLittleMoreThanThePictureHoweverWideThatIs) {
+  for (const int height : {10, 1000, 20'000}) {
+    const FrameCanvas canvas({1'000'000, height}, "+180.0 deg", kBackground,
+                             ScaleBar{2e5, 200'000, "200 mm"});
+    EXPECT_LT(canvas.size().height, height + 40 + height / 4);
+    EXPECT_EQ(canvas.bytes(CV_16UC3), 6.0 * canvas.size().height * 1e6);
+  }
+}
+
 TEST(FrameCanvas, SaysWhereAPictureLies) {
   const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
   EXPECT_EQ(canvas.place_of({150, 100}), cv::Point(75, 50));
@@ -115,9 +125,10 @@ TEST(FrameCanvas, SaysWhereAPictureLies) {
 TEST(FrameCanvas, RefusesAPictureLargerThanTheLargest) {
   const FrameCanvas canvas({300, 200}, "+180.0 deg", kBackground);
   EXPECT_THROW(canvas.place_of({300, 203}), InvalidRequest);
-  for (const cv::Point place : {cv::Point(0, 0), cv::Point(-1, 0), cv::Point(0, 4)}) {
-    EXPECT_THROW(canvas.draw(cv::Mat(place == cv::Point() ? 203 : 200, 300, CV_8UC3), place, ""),
-                 InvalidRequest);
+  cv::Mat frame = canvas.draw_empty(CV_8UC3, "");
+  for (const cv::Rect& part :
+       {cv::Rect(0, 0, 300, 203), cv::Rect(-1, 0, 300, 200), cv::Rect(0, 4, 300, 200)}) {
+    EXPECT_THROW(canvas.part_for(part, frame), InvalidRequest);
   }
 }
 
