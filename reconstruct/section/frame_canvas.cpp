@@ -1,6 +1,7 @@
 #include "reconstruct/section/frame_canvas.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -15,6 +16,7 @@ constexpr double kWidthForFullSize = 800.0;      // pixels; larger pictures get 
 constexpr double kHeightForFullSize = 200.0;     // so that the strip stays lower than the picture
 constexpr double kLeastTextScale = 0.5;
 constexpr int kMargin = 8;
+constexpr double kWholePixel = 1e-6;
 constexpr double kLevels8To16 = 257.0;
 constexpr Colour kWhite{255, 255, 255};
 constexpr Colour kBlack{0, 0, 0};
@@ -44,6 +46,11 @@ int text_width(const std::string& text, double text_scale) {
   return cv::getTextSize(text, kFont, text_scale, stroke(text_scale), &baseline).width;
 }
 
+/// That a bar covers, wholly or in part.
+int touched_pixels(const ScaleBar& bar) {
+  return std::max(1, static_cast<int>(std::ceil(bar.pixels - kWholePixel)));
+}
+
 }  // namespace
 
 FrameCanvas::FrameCanvas(cv::Size largest_picture, const std::string& longest_label,
@@ -65,7 +72,8 @@ FrameCanvas::FrameCanvas(cv::Size largest_picture, const std::string& longest_la
 
 int FrameCanvas::strip_width(int label_width) const {
   const int label = label_width == 0 ? 0 : label_width + 2 * kMargin;
-  return bar_ ? label + bar_->pixels + text_width(bar_->label, text_scale_) + 3 * kMargin : label;
+  return bar_ ? label + touched_pixels(*bar_) + text_width(bar_->label, text_scale_) + 3 * kMargin
+              : label;
 }
 
 void FrameCanvas::draw_bar(cv::Mat& frame, int baseline) const {
@@ -74,9 +82,14 @@ void FrameCanvas::draw_bar(cv::Mat& frame, int baseline) const {
   cv::putText(frame, bar_->label, {text_left, baseline}, kFont, text_scale_, ink,
               stroke(text_scale_), cv::LINE_AA);
   const int thickness = std::max(2, text_height_ / 4);
-  const cv::Rect bar(text_left - kMargin - bar_->pixels,
-                     baseline - text_height_ / 2 - thickness / 2, bar_->pixels, thickness);
-  frame(bar).setTo(ink);
+  const int touched = touched_pixels(*bar_);
+  const int left = text_left - kMargin - touched;
+  const int top = baseline - text_height_ / 2 - thickness / 2;
+  frame(cv::Rect(left, top, touched, thickness)).setTo(ink);
+  // The bar's beginning covers a part of its pixel: so it has its length to less than a pixel.
+  const double covered = 1.0 - (touched - bar_->pixels);
+  const cv::Scalar paper = levels(background_, frame.depth());
+  frame(cv::Rect(left, top, 1, thickness)).setTo(covered * ink + (1.0 - covered) * paper);
 }
 
 cv::Mat FrameCanvas::draw_empty(int type, const std::string& label) const {

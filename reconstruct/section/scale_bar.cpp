@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace biotomy::reconstruct {
 namespace {
 
-constexpr double kShare = 0.2;  // of the picture's width
+constexpr double kShare = 0.2;      // of the picture's width
+constexpr double kRounding = 1e-9;  // a picture as long as a bar has room for it
 constexpr double kMicrometresPerMillimetre = 1000.0;
 
 /// `digit` · 10^`power`; whole powers of ten are exact, their reciprocals need a division.
@@ -27,19 +27,17 @@ std::string label_of(double micrometres) {
 }  // namespace
 
 ScaleBar scale_bar(int width, double pixel) {
-  const double wanted = kShare * width * pixel;
+  const double room = width * pixel * (1.0 + kRounding);
+  const double wanted = std::max(kShare * width, 1.0) * pixel;
   const int power = static_cast<int>(std::floor(std::log10(wanted)));
-  double best = 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double digit : {1.0, 2.0, 5.0, 10.0}) {
+  double best = length_of(1.0, power);  // which is no more than wanted
+  for (const double digit : {2.0, 5.0, 10.0}) {
     const double length = length_of(digit, power);
-    const double distance = std::abs(std::log(length / wanted));
-    if (distance < least) {
-      least = distance;
+    if (length <= room && std::abs(std::log(length / wanted)) < std::abs(std::log(best / wanted))) {
       best = length;
     }
   }
-  return {best, std::max(1, static_cast<int>(std::lround(best / pixel))), label_of(best)};
+  return {best, best / pixel, label_of(best)};
 }
 
 }  // namespace biotomy::reconstruct

@@ -1,6 +1,7 @@
 #include "reconstruct/section/frame_canvas.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -76,6 +77,20 @@ TEST(FrameCanvas, DrawsTheScaleBarOnTheRightInItsLength) {
       }
     }
     EXPECT_EQ(longest, 57);
+  }
+}
+
+TEST(FrameCanvas, DrawsTheScaleBarToLessThanAPixel) {
+  constexpr double kInk = 255.0 - kBackground[0];
+  const auto ink_of = [](double pixels) {
+    const FrameCanvas canvas({40, 10}, "", kBackground, ScaleBar{200.0, pixels, "200 um"});
+    const cv::Mat frame = canvas.draw_empty(CV_8UC3, "");
+    return (cv::sum(frame)[0] - static_cast<double>(frame.total()) * kBackground[0]) / kInk;
+  };
+  const double of_a_pixel = ink_of(2.0) - ink_of(1.0);
+  EXPECT_EQ(of_a_pixel, std::round(of_a_pixel));  // the bar's thickness
+  for (const double pixels : {0.5, 3.0, 7.25, 19.9}) {
+    EXPECT_NEAR(ink_of(pixels) - ink_of(1.0), (pixels - 1.0) * of_a_pixel, 0.01 * of_a_pixel);
   }
 }
 

@@ -32,6 +32,19 @@ TEST(ScaleBar, IsLabelledInMicrometresOrMillimetres) {
   EXPECT_EQ(scale_bar(1000, 1000.0).label, "200 mm");
 }
 
+TEST(ScaleBar, IsAsLongAsItsLabelSaysAndNoLongerThanThePicture) {
+  for (int width = 1; width < 40; ++width) {
+    for (const double pixel : {0.7, 1.0, 10.0, 13.2, 19.0, 49.0, 99.9}) {
+      const ScaleBar bar = scale_bar(width, pixel);
+      EXPECT_NEAR(bar.pixels * pixel, bar.length, 1e-9 * bar.length) << width << ' ' << pixel;
+      const double unit = bar.label.ends_with(" mm") ? 1000.0 : 1.0;
+      EXPECT_DOUBLE_EQ(unit * std::stod(bar.label), bar.length);
+      EXPECT_LE(bar.pixels, width * (1.0 + 1e-8)) << width << ' ' << pixel;
+      EXPECT_GE(bar.pixels, 0.4) << width << ' ' << pixel;
+    }
+  }
+}
+
 TEST(ScaleBar, ExistsForASinglePixel) {
   EXPECT_EQ(scale_bar(1, 10.0).pixels, 1);
 }
