@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kWholePixel = 1e-6;    // of a pixel: a width of 99.9999999 pixels holds 100
 constexpr double kSameCentre = 1e-9;    // of a voxel
-constexpr double kBorder = 1e-6;        // of a voxel
 constexpr double kMaxSidePixels = 1e9;  // so that counts are ints
 
 double pixels_along(double length, double pixel) {
@@ -53,9 +52,13 @@ VoxelRow voxel_row(const PixelGrid& grid, const PyramidLevel& level, int row) {
   const ThetaRectangle& rectangle = grid.rectangle;
   const Vector3 start = rectangle.origin + (row * grid.pixel) * rectangle.axes.q - level.origin;
   const Vector3 step = grid.pixel * rectangle.axes.p;
+  const Vector3 down = grid.pixel * rectangle.axes.q;
   VoxelRow result{{start.x / level.spacing.x, start.y / level.spacing.y, start.z / level.spacing.z},
                   {step.x / level.spacing.x, step.y / level.spacing.y, step.z / level.spacing.z}};
+  const std::array<double, 3> row_step{down.x / level.spacing.x, down.y / level.spacing.y,
+                                       down.z / level.spacing.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.forgiven[axis] += kWholePixel * (std::abs(result.step[axis]) + std::abs(row_step[axis]));
     const double centre = std::round(result.start[axis]);
     const double whole_step = std::round(result.step[axis]);
     if (std::abs(result.start[axis] - centre) < kSameCentre &&
@@ -76,8 +79,9 @@ ColumnRange columns_inside(const VoxelRow& row, ColumnRange range, const GridSiz
   double first = range.first;
   double last = range.last - 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double lowest = -kBorder - row.start[axis];
-    const double highest = static_cast<double>(sizes[axis] - 1) + kBorder - row.start[axis];
+    const double lowest = -row.forgiven[axis] - row.start[axis];
+    const double highest =
+        static_cast<double>(sizes[axis] - 1) + row.forgiven[axis] - row.start[axis];
     if (row.step[axis] == 0.0) {
       if (lowest > 0.0 || highest < 0.0) {
         return {range.first, range.first};

@@ -33,6 +33,9 @@ PixelGrid shifted_grid(const PixelGrid& grid, double columns, double rows);
 struct VoxelRow {
   std::array<double, 3> start{};
   std::array<double, 3> step{};
+  /// How far outside the cuboid a centre may lie that still counts as in it: 10⁻⁶ voxel, and what
+  /// pixel_grid forgives of a pixel along the picture's two sides.
+  std::array<double, 3> forgiven{1e-6, 1e-6, 1e-6};
 
   double at(int axis, int column) const {
     return start[static_cast<std::size_t>(axis)] + column * step[static_cast<std::size_t>(axis)];
@@ -53,7 +56,7 @@ struct ColumnRange {
   int last = 0;
 };
 
-/// The columns of `range` whose centres lie in the cuboid, to within 10⁻⁶ voxel.
+/// The columns of `range` whose centres lie in the cuboid, or outside by no more than is forgiven.
 ColumnRange columns_inside(const VoxelRow& row, ColumnRange range, const GridSize& size);
 
 }  // namespace biotomy::reconstruct

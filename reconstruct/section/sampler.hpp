@@ -32,11 +32,10 @@ struct SampledImage {
 using OnRows = std::function<void(std::int64_t done, std::int64_t total)>;
 
 /// The colours of the source at the pixel centres of `grid`, from the levels that level_choice
-/// names; `background` where a centre is outside the cuboid by more than 10⁻⁶ voxel. Strips of the
-/// picture follow each other, the tiles of one are filled in parallel while the bricks of the next
-/// are fetched; the result does not depend on how. `on_rows` is called after each strip, by the
-/// caller's thread. Throws what the source and
-/// `on_rows` throw.
+/// names; `background` where a centre is outside the cuboid by more than VoxelRow forgives. Strips
+/// of the picture follow each other, the tiles of one are filled in parallel while the bricks of
+/// the next are fetched; the result does not depend on how. `on_rows` is called after each strip,
+/// by the caller's thread. Throws what the source and `on_rows` throw.
 SampledImage sample_grid(BrickSource& source, const PixelGrid& grid, Interpolation kind,
                          const Colour& background, const OnRows& on_rows = {});
 

@@ -190,5 +190,35 @@ TEST(ColumnsInside, AreAllOfAnInscribedRectangle) {
   EXPECT_GT(pixels, 1'000'000);
 }
 
+// Of a rectangle that is a millionth of a pixel too short for its last column and row.
+TEST(ColumnsInside, AreAllOfAnInscribedRectangleHoweverLargeItsPixelsAre) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 1000; ++i) {
+    const Cuboid cuboid = tests::random_cuboid(random);
+    const Plane plane = tests::random_plane(cuboid, random);
+    const auto polygon = section_polygon(plane, cuboid);
+    const SectionBasis basis = section_basis(i % 2 == 0 ? BasisKind::layer : BasisKind::xz, plane);
+    ThetaRectangle rectangle = theta_rectangle(theta::InscribedAny{}, polygon, basis);
+    const double pixel = std::min(rectangle.width, rectangle.height) / (3.0 - 0.9e-6);
+    rectangle.width = rectangle.height = 3.0 * pixel - 0.9e-6 * pixel;
+    const PixelGrid grid = pixel_grid(rectangle, pixel, 3, kMaxBytes);
+    ASSERT_EQ(grid.columns, 4);
+    ASSERT_EQ(grid.rows, 4);
+    for (int row = 0; row < grid.rows; ++row) {
+      const ColumnRange inside =
+          columns_inside(voxel_row(grid, cuboid, row), {0, grid.columns}, cuboid.size);
+      EXPECT_EQ(inside.first, 0) << i << " row " << row;
+      EXPECT_EQ(inside.last, 4) << i << " row " << row;
+    }
+  }
+}
+
+TEST(ColumnsInside, AreNotForgivenAcrossThePlaneForLargePixels) {
+  const Cuboid cuboid{{10, 10, 10}, {1.0, 1.0, 1.0}};
+  const PixelGrid grid = pixel_grid({{0, 0, -2e-6}, kAxes, 9000.0, 9000.0}, 1000.0, 3, kMaxBytes);
+  const ColumnRange inside = columns_inside(voxel_row(grid, cuboid, 0), {0, 10}, cuboid.size);
+  EXPECT_EQ(inside.first, inside.last);
+}
+
 }  // namespace
 }  // namespace biotomy::reconstruct
