@@ -17,12 +17,15 @@ double least_spacing(const Cuboid& cuboid) {
 }  // namespace
 
 SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request) {
-  SectionOutline outline{section_polygon(request.plane, cuboid), {}};
-  const ThetaRectangle rectangle =
-      theta_rectangle(request.style.theta, outline.polygon, request.basis);
-  outline.grid = pixel_grid(rectangle, request.style.pixel.value_or(least_spacing(cuboid)),
-                            kColours * bits / 8, request.style.max_bytes);
-  return outline;
+  std::vector<Vector3> polygon = section_polygon(request.plane, cuboid);
+  const ThetaRectangle rectangle = theta_rectangle(request.style.theta, polygon, request.basis);
+  return outline_section(cuboid, bits, request.style, std::move(polygon), rectangle);
+}
+
+SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionStyle& style,
+                               std::vector<Vector3> polygon, const ThetaRectangle& rectangle) {
+  return {std::move(polygon), pixel_grid(rectangle, style.pixel.value_or(least_spacing(cuboid)),
+                                         kColours * bits / 8, style.max_bytes)};
 }
 
 Section cut_section(BrickSource& source, const SectionRequest& request, const OnRows& on_rows) {

@@ -48,6 +48,10 @@ struct Section {
 /// and what theta_rectangle throws.
 SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionRequest& request);
 
+/// Likewise where polygon and rectangle are known: throws only for a picture too large.
+SectionOutline outline_section(const Cuboid& cuboid, int bits, const SectionStyle& style,
+                               std::vector<Vector3> polygon, const ThetaRectangle& rectangle);
+
 /// Throws what outline_section and sample_grid throw.
 Section cut_section(BrickSource& source, const SectionRequest& request, const OnRows& on_rows = {});
 

@@ -24,8 +24,8 @@ struct SectionRecord {
   nlohmann::ordered_json parameters;  ///< what was asked for, as it was asked
 };
 
-/// What is to be known of a frame of a series whose plane has no section: it misses the sample, or
-/// only touches it, at a corner or along an edge.
+/// What is to be known of a frame of a series whose plane has no section: it misses the sample,
+/// only touches it, at a corner or along an edge, or has no rectangle as it was asked for.
 struct EmptyFrameRecord {
   std::string sample;
   Cuboid cuboid;

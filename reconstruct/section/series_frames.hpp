@@ -40,7 +40,7 @@ class SeriesFrames {
   int frame_type() const;                         ///< CV_8UC3 or CV_16UC3
   const Series& series() const { return series_; }
 
-  /// The section of a frame, its grid as it is drawn; none where the plane does not cut the sample.
+  /// The section of a frame, its grid as it is drawn; none as in SeriesLayout.
   const std::optional<SectionOutline>& outline(std::size_t index) const;
 
   /// The frame's pixel that is pixel (0, 0) of its section, which there must be.

@@ -1,6 +1,7 @@
 #include "acquisition/viewer/exports/export_order.hpp"
 
 #include <algorithm>
+#include <exception>
 
 #include <nlohmann/json.hpp>
 
@@ -8,8 +9,8 @@
 #include "acquisition/viewer/picture_task.hpp"
 #include "reconstruct/errors.hpp"
 #include "reconstruct/excerpt.hpp"
-#include "reconstruct/geometry/section_polygon.hpp"
 #include "reconstruct/section/film.hpp"
+#include "reconstruct/section/series_layout.hpp"
 
 namespace biotomy::acquisition {
 namespace {
@@ -102,15 +103,20 @@ ExportPlan series_plan(const ExportOrder& order, const SampleView& view, std::in
   style.max_bytes = max_bytes;
   double width = 0.0;
   double height = 0.0;
+  std::exception_ptr refusal;
   const std::size_t step = std::max<std::size_t>(count / kFramesLookedAt, 1);
   for (std::size_t i = 0; i < count; i += step) {
     const reconstruct::SeriesFrame& frame = series.frames[i];
-    if (contact(frame.plane, volume.cuboid()).vertices.size() < 3) continue;
-    const reconstruct::PixelGrid grid =
-        outline_section(volume.cuboid(), volume.bits(), {frame.plane, frame.basis, style}).grid;
-    width = std::max<double>(width, grid.columns);
-    height = std::max<double>(height, grid.rows);
+    const reconstruct::FrameOutline looked_at =
+        frame_outline(frame, volume.cuboid(), volume.bits(), style);
+    if (!looked_at.outline) {
+      refusal = looked_at.refusal;
+      continue;
+    }
+    width = std::max<double>(width, looked_at.outline->grid.columns);
+    height = std::max<double>(height, looked_at.outline->grid.rows);
   }
+  if (width == 0.0 && refusal) std::rethrow_exception(refusal);
   const double pixel_bytes = width * height * 3 * static_cast<double>(count);
   std::uint64_t bytes = 0;
   if (order.frames) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "reconstruct/errors.hpp"
+#include "reconstruct/geometry/section_polygon.hpp"
 #include "reconstruct/section/picture_affine.hpp"
 
 namespace biotomy::reconstruct {
@@ -97,6 +99,25 @@ TEST(SeriesLayout, CentresTheSectionsToWithinAPixel) {
       }
     }
   }
+}
+
+TEST(SeriesLayout, HasNoSectionWhereThereIsNoSuchEdge) {
+  Translation translation;
+  translation.normal = {1, 1, 1};
+  translation.step = 7.0;
+  const Series series = translation_series(translation, BasisKind::layer, kCuboid);
+  const SeriesLayout layout =
+      series_layout(kCuboid, 8, series, style_of(theta::InscribedAtEdge{4}));
+  int sections = 0;
+  for (std::size_t i = 0; i < series.frames.size(); ++i) {
+    const bool has_edge = contact(series.frames[i].plane, kCuboid).vertices.size() > 4;
+    EXPECT_EQ(layout.outlines[i].has_value(), has_edge) << i;
+    sections += has_edge ? 1 : 0;
+  }
+  EXPECT_GT(sections, 0);
+  EXPECT_LT(sections, static_cast<int>(series.frames.size()));
+  EXPECT_THROW(series_layout(kCuboid, 8, series, style_of(theta::InscribedAtEdge{6})),
+               InvalidRequest);
 }
 
 TEST(SeriesLayout, LeavesACustomRectangleWhereItWasAskedFor) {
