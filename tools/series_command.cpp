@@ -135,17 +135,22 @@ void run_series(const SeriesArguments& arguments, const CLI::App& command,
                         " frames; the same command again takes the series up");
     }
     auto frame = folder.frame(i, frames.frame_size(), stored_type);
-    if (!frame) {
+    const bool is_there = frame.has_value();
+    // What a JPEG has lost would be missing in the film, too: it is the same whether the series was
+    // interrupted or not.
+    if (!is_there || (film && is_jpeg)) {
       const reconstruct::SampledImage drawn = frames.draw(i);
       frame = drawn.image;
-      // Bricks are kept from frame to frame: once there was damage, any later one may show it.
-      folder.store(i, source.damage().chunks > 0, [&](const std::filesystem::path& path) {
-        reconstruct::write_section_image(
-            path, *frame,
-            reconstruct::frame_notes(frames, i, sample.folder.description().name, cuboid,
-                                     drawn.statistics, parameters),
-            quality);
-      });
+      if (!is_there) {
+        // Bricks are kept from frame to frame: once there was damage, any later one may show it.
+        folder.store(i, source.damage().chunks > 0, [&](const std::filesystem::path& path) {
+          reconstruct::write_section_image(
+              path, *frame,
+              reconstruct::frame_notes(frames, i, sample.folder.description().name, cuboid,
+                                       drawn.statistics, parameters),
+              quality);
+        });
+      }
     }
     if (film) {
       film->add(*frame);

@@ -389,6 +389,24 @@ TEST_F(SectionAndSeries, ASeriesIsTakenUpWhereItWasLeft) {
   EXPECT_TRUE(fs::exists(folder_ / "turning.mp4"));
 }
 
+TEST_F(SectionAndSeries, AFilmIsTheSameWhateverFramesWereThere) {
+  for (const std::string format : {"png", "jpg"}) {
+    const std::string turning = folder_ / ("turning-" + format);
+    const std::vector<std::string> more{"--format", format, "--quality", "10"};
+    const auto with_film = [&](const fs::path& film) {
+      std::vector<std::string> words = more;
+      words.insert(words.end(), {"--movie", film});
+      rotation(turning, words);
+      return read_file(film);
+    };
+    const auto at_once = with_film(folder_ / ("a-" + format + ".mp4"));
+    const auto frame = fs::path(turning) / ("002_+020.0deg." + format);
+    const auto written = fs::last_write_time(frame);
+    EXPECT_EQ(with_film(folder_ / ("b-" + format + ".mp4")), at_once) << format;
+    EXPECT_EQ(fs::last_write_time(frame), written);
+  }
+}
+
 TEST_F(SectionAndSeries, AFolderOfAnotherSeriesIsRefused) {
   rotation(folder_ / "turning");
   EXPECT_THAT(message_of<SampleError>([&] {
