@@ -14,6 +14,7 @@
 #include "reconstruct/bricks/opened_sample.hpp"
 #include "reconstruct/bricks/volume_bricks.hpp"
 #include "reconstruct/errors.hpp"
+#include "reconstruct/sample/layer_files_state.hpp"
 #include "reconstruct/section/film.hpp"
 #include "reconstruct/section/parameter_text.hpp"
 #include "reconstruct/section/section_image.hpp"
@@ -70,7 +71,8 @@ std::vector<std::string> names_of(const Series& series, const std::string& exten
 }
 
 /// All that makes the series what it is: two series of the same description have the same frames.
-/// A sample that is still being ground is another one with each layer.
+/// A sample that is still being ground is another one with each layer, and so is one of which a
+/// layer was replaced.
 nlohmann::ordered_json describe(const OpenedSample& sample, const SeriesFrames& frames,
                                 const std::vector<std::string>& names,
                                 const nlohmann::ordered_json& parameters) {
@@ -87,7 +89,9 @@ nlohmann::ordered_json describe(const OpenedSample& sample, const SeriesFrames& 
             {"size", {size.x, size.y, size.z}},
             {"spacing_um", {spacing.x, spacing.y, spacing.z}},
             {"bits", sample.volume.bits()},
-            {"layers", sample.tail.layers_present()}}},
+            {"layers", sample.tail.layers_present()},
+            {"layer_files",
+             reconstruct::layer_files_state(sample.folder, sample.tail.layers_present())}}},
           {"parameters", parameters},
           {"pixel_um", frames.pixel()},
           {"unit", frames.series().unit},

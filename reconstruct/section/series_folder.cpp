@@ -46,6 +46,23 @@ bool is_film(const fs::path& name) {
          name.string().ends_with(std::string(kFilmExtension) + ".partial");
 }
 
+/// Whether what was written is the description of the same series, of another state of its sample.
+bool differs_in_sample_alone(const std::string& written, nlohmann::ordered_json description) {
+  auto there = nlohmann::ordered_json::parse(written, nullptr, false);
+  const auto name_of = [](const nlohmann::ordered_json& series) -> nlohmann::ordered_json {
+    const auto sample = series.is_object() ? series.find("sample") : series.end();
+    return sample != series.end() && sample->is_object() && sample->contains("name")
+               ? sample->at("name")
+               : nlohmann::ordered_json();
+  };
+  if (name_of(there).is_null() || name_of(there) != name_of(description)) {
+    return false;
+  }
+  there.erase("sample");
+  description.erase("sample");
+  return there == description;
+}
+
 }  // namespace
 
 SeriesFolder::SeriesFolder(fs::path path, const nlohmann::ordered_json& description,
@@ -58,8 +75,11 @@ SeriesFolder::SeriesFolder(fs::path path, const nlohmann::ordered_json& descript
     const std::string there{std::istreambuf_iterator<char>(in), {}};
     if (there != text) {
       throw SampleError(path_.string() +
-                        ": the folder holds another series, of other parameters or another state "
-                        "of the sample: name a new one, or remove it");
+                        (differs_in_sample_alone(there, description)
+                             ? ": the sample has changed since the frames in this folder were cut: "
+                               "name a new folder, or remove this one"
+                             : ": the folder holds another series, of other parameters or another "
+                               "sample: name a new one, or remove it"));
     }
     remove_leftovers();
     refuse_strangers();

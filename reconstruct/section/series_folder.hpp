@@ -23,6 +23,8 @@ class SeriesFolder {
  public:
   /// Makes the folder, or takes the series in it up again. `description` is all that makes the
   /// series what it is; `frames` are the names of its files. Films (.mp4) may lie there too.
+  /// Its member `sample`, with a `name`, is the state of the sample; if that alone is another one,
+  /// the message says so.
   /// Throws SampleError when the folder holds another series or files that are none of ours, when
   /// another process is working in it, or when it can't be written to.
   SeriesFolder(std::filesystem::path path, const nlohmann::ordered_json& description,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -405,6 +406,16 @@ TEST_F(SectionAndSeries, AFilmIsTheSameWhateverFramesWereThere) {
     EXPECT_EQ(with_film(folder_ / ("b-" + format + ".mp4")), at_once) << format;
     EXPECT_EQ(fs::last_write_time(frame), written);
   }
+}
+
+TEST_F(SectionAndSeries, ASeriesOfASampleThatHasChangedSinceIsNotTakenUp) {
+  rotation(folder_ / "turning");
+  rotation(folder_ / "turning");
+  const fs::path layer = fs::path(sample_) / "layers/000003.tif";
+  fs::last_write_time(layer, fs::last_write_time(layer) + std::chrono::seconds(1));
+  EXPECT_THAT(message_of<SampleError>([&] { rotation(folder_ / "turning"); }),
+              testing::EndsWith("turning: the sample has changed since the frames in this folder "
+                                "were cut: name a new folder, or remove this one"));
 }
 
 TEST_F(SectionAndSeries, AFolderOfAnotherSeriesIsRefused) {
