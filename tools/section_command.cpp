@@ -126,7 +126,7 @@ SampleStatistics cut(const OpenedSample& sample, const PixelGrid& grid, const Se
       chosen.damage, &sample.tail);
   ProgressBar progress("Cutting", "rows");
   cv::Mat part = picture.image({picture.first, cv::Size(grid.columns, grid.rows)});
-  const SampleStatistics statistics = reconstruct::sample_grid(
+  SampleStatistics statistics = reconstruct::sample_grid(
       source, grid, style.interpolation, style.background, part,
       [&](std::int64_t done, std::int64_t total) {
         reconstruct::stop_here_if(&Interruption::requested,
