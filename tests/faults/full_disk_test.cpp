@@ -33,10 +33,15 @@ class FullDisk : public testing::Test {
     fs::create_directory(disk_);
   }
 
-  /// What is on the disk before the program begins; put there anew for each run.
+  /// What is on the disk before the program begins; put there anew for each run, with the times at
+  /// which it was made: by these a series knows its sample again.
   void reset_disk() const {
     fs::remove_all(disk_);
     fs::copy(prepared_, disk_, fs::copy_options::recursive);
+    for (const auto& entry : fs::recursive_directory_iterator(prepared_)) {
+      fs::last_write_time(disk_ / entry.path().lexically_relative(prepared_),
+                          entry.last_write_time());
+    }
   }
 
   Outcome run_on(const Fault& fault, const Command& command) const {
