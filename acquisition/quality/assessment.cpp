@@ -90,7 +90,7 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   result.surface = std::make_shared<const SurfacePrint>(take_surface_print(image));
   result.light = find_light(*result.surface, expectation.surfaces);
   // What lies on a face changes its light too.
-  judge_surface(image, expectation.surfaces, thresholds, judgement);
+  judge_surface(image, result.measures->clipping, expectation.surfaces, thresholds, judgement);
   judge_light(expectation.surfaces, thresholds, judgement);
 
   const bool good_so_far = result.slug.empty();

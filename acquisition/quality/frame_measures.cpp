@@ -8,8 +8,6 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "acquisition/quality/clipping_levels.hpp"
-
 namespace biotomy::acquisition {
 namespace {
 
@@ -261,11 +259,10 @@ double TileMeasures::signal_to_noise() const {
 }
 
 FrameMeasures measure_frame(const cv::Mat& image) {
-  FrameMeasures measures{TileGrid::of(image.size()), {}};
+  FrameMeasures measures{TileGrid::of(image.size()), {}, clipping_levels(image)};
   measures.tiles.resize(static_cast<std::size_t>(measures.grid.count()));
-  const ClippingLevels levels = clipping_levels(image);
   cv::parallel_for_({0, measures.grid.count()}, [&](const cv::Range& tiles) {
-    TileMeasurer measurer(image, levels);
+    TileMeasurer measurer(image, measures.clipping);
     for (int number = tiles.start; number < tiles.end; ++number) {
       measures.tiles[static_cast<std::size_t>(number)] =
           measurer.measure(measures.grid.tile(number));

@@ -5,6 +5,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/tile_grid.hpp"
 
 namespace biotomy::acquisition {
@@ -40,6 +41,7 @@ struct TileMeasures {
 struct FrameMeasures {
   TileGrid grid;
   std::vector<TileMeasures> tiles;  ///< as the grid numbers them
+  ClippingLevels clipping{};        ///< of the frame: what they left out
 };
 
 /// Measures all tiles in one pass. `image` is CV_8UC3 or CV_16UC3, R G B. The time depends on the

@@ -10,7 +10,6 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/shade.hpp"
 #include "acquisition/quality/surface_colours.hpp"
 #include "acquisition/quality/thumbnail.hpp"
@@ -160,8 +159,9 @@ bool glares(const cv::Mat& image, const ClippingLevels& levels, int cell_x, int 
 
 }  // namespace
 
-SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& now,
-                                    const SurfaceRecord& record, const LightChange& light) {
+SurfaceDefects find_surface_defects(const cv::Mat& image, const ClippingLevels& clipping,
+                                    const SurfacePrint& now, const SurfaceRecord& record,
+                                    const LightChange& light) {
   const SurfacePrint& before = *record.surface();
   const cv::Mat factor = light_factor(light, now.light.size());
   const cv::Mat cells = surface_scale(without_light(now.thumbnail, factor));
@@ -174,13 +174,12 @@ SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& no
   cv::Mat frosted;
   cv::resize(frost, frosted, cells.size(), 0.0, 0.0, cv::INTER_NEAREST);
 
-  const ClippingLevels levels = clipping_levels(image);
   int debris = 0;
   int glare = 0;
   for (int y = 0; y < cells.rows; ++y) {
     for (int x = 0; x < cells.cols; ++x) {
       if (outside.at<std::uint8_t>(y, x) == 0 || unknown.at<std::uint8_t>(y, x) == 0) continue;
-      if (glares(image, levels, x, y)) {
+      if (glares(image, clipping, x, y)) {
         ++glare;
       } else if (frosted.at<std::uint8_t>(y, x) == 0 && specks.at<std::uint8_t>(y, x) != 0) {
         ++debris;

@@ -2,6 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/light_change.hpp"
 #include "acquisition/quality/surface_record.hpp"
 
@@ -16,9 +17,9 @@ struct SurfaceDefects {
   double arrived = 0.0;  ///< is new over an area larger than a speck: tissue, not casting material
 };
 
-/// Finds what a grind cannot have uncovered. `image` is the frame of which `now` is the print,
-/// `record` has a surface of a frame of its size, `light` is the change of light since that
-/// surface's layer; it is taken out first.
+/// Finds what a grind cannot have uncovered. `image` is the frame of which `now` is the print
+/// and `clipping` the levels, `record` has a surface of a frame of its size, `light` is the change
+/// of light since that surface's layer; it is taken out first.
 ///
 /// Debris: cells of the thumbnail that are foreign. A cell is foreign when one of its colours lies
 /// outside all that the layer before has within two cells, so that an edge that moves is not, and
@@ -36,7 +37,8 @@ struct SurfaceDefects {
 /// frame where that is above 0.07. Foreign cells there are frost and not debris.
 ///
 /// Shade: see shaded().
-SurfaceDefects find_surface_defects(const cv::Mat& image, const SurfacePrint& now,
-                                    const SurfaceRecord& record, const LightChange& light);
+SurfaceDefects find_surface_defects(const cv::Mat& image, const ClippingLevels& clipping,
+                                    const SurfacePrint& now, const SurfaceRecord& record,
+                                    const LightChange& light);
 
 }  // namespace biotomy::acquisition

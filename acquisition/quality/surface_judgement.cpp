@@ -39,8 +39,9 @@ void judge_shift(const SurfacePrint& now, const SurfaceRecord& surfaces,
 
 }  // namespace
 
-void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
-                   const QualityThresholds& thresholds, Judgement& judgement) {
+void judge_surface(const cv::Mat& image, const ClippingLevels& clipping,
+                   const SurfaceRecord& surfaces, const QualityThresholds& thresholds,
+                   Judgement& judgement) {
   const SurfacePrint& now = *judgement.result().surface;
   const SurfacePrint* before = surfaces.surface();
   if (before == nullptr || now.thumbnail.empty() ||
@@ -48,8 +49,8 @@ void judge_surface(const cv::Mat& image, const SurfaceRecord& surfaces,
     return;
   }
   judge_shift(now, surfaces, thresholds, judgement);
-  const SurfaceDefects found =
-      find_surface_defects(image, now, surfaces, judgement.result().light.measured.change);
+  const SurfaceDefects found = find_surface_defects(image, clipping, now, surfaces,
+                                                    judgement.result().light.measured.change);
   judgement.at_most("glare", found.glare, thresholds.maximum_glare, "glare",
                     "%.4f of the frame is glare, more than %.4f: ice or liquid reflects the lamp");
   judgement.at_most("frost", found.frost, thresholds.maximum_frost, "frost",

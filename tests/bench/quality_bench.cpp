@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "acquisition/calibration/field_correction.hpp"
+#include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/consecutive_frames.hpp"
 #include "acquisition/quality/face_change.hpp"
 #include "acquisition/quality/face_print.hpp"
@@ -152,9 +153,10 @@ void shift(benchmark::State& state, std::uint64_t depth) {
 
 void surface_defects(benchmark::State& state, std::uint64_t depth) {
   const Surfaces surfaces(depth);
+  const ClippingLevels levels = clipping_levels(surfaces.image);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        find_surface_defects(surfaces.image, surfaces.now, surfaces.record, {}));
+        find_surface_defects(surfaces.image, levels, surfaces.now, surfaces.record, {}));
   }
   count_pixels(state);
 }
@@ -190,8 +192,8 @@ cv::Mat content(Content content, std::uint64_t depth, std::uint64_t exposure, in
 void assess_frame(benchmark::State& state, Content what, int type) {
   ConsecutiveFrames layers{QualityThresholds{}};
   for (std::uint64_t depth = 1; depth <= 3; ++depth) {
-    layers.accept(
-        layers.judge(content(what, depth, depth, type), static_cast<std::int64_t>(depth)));
+    layers.accept(layers.judge(content(what, depth, depth, type), static_cast<std::int64_t>(depth)),
+                  false);
   }
   const cv::Mat image = content(what, 4, 4, type);
   for (auto _ : state) {

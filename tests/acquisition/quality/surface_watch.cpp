@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/light_judgement.hpp"
 #include "acquisition/quality/surface_judgement.hpp"
 
@@ -18,7 +19,7 @@ Assessment SurfaceWatch::judge(const cv::Mat& image) const {
   Assessment& result = judgement.result();
   result.surface = std::make_shared<const SurfacePrint>(take_surface_print(image));
   result.light = find_light(*result.surface, record);
-  judge_surface(image, record, thresholds, judgement);
+  judge_surface(image, clipping_levels(image), record, thresholds, judgement);
   judge_light(record, thresholds, judgement);
   return judgement.finish();
 }
