@@ -13,6 +13,7 @@
 
 #include "acquisition/quality/consecutive_frames.hpp"
 #include "acquisition/quality/focus_sweep.hpp"
+#include "acquisition/quality/noise_judgement.hpp"
 #include "acquisition/records/journal_reader.hpp"
 #include "acquisition/records/recalled_faces.hpp"
 #include "acquisition/service/configuration.hpp"
@@ -137,10 +138,12 @@ class Past {
 
   bool has_start_at(std::int64_t layer) const { return starts_.contains(layer); }
 
-  bool has_flag(std::int64_t layer) const {
-    if (!journal_) return false;
-    const auto found = journal_->committed_layers(layer, 1);
-    return !found.empty() && found.front().layer == layer && found.front().flagged;
+  /// Nothing of a layer that the journal does not know.
+  std::optional<acquisition::LayerRow> layer(std::int64_t number) const {
+    if (!journal_) return std::nullopt;
+    const auto found = journal_->committed_layers(number, 1);
+    if (found.empty() || found.front().layer != number) return std::nullopt;
+    return found.front();
   }
 
   std::vector<acquisition::AttemptNote> attempts(std::int64_t layer) const {
@@ -173,8 +176,10 @@ void judge_layers(const Options& options, QcReport& report) {
       if (layer >= range.first) report.add_unreadable(name, layer, error.what());
       continue;
     }
-    Assessment assessment = frames.judge(image, layer);
-    const bool flagged = past.has_flag(layer);
+    const std::optional<acquisition::LayerRow> row = past.layer(layer);
+    const bool flagged = row && row->flagged;
+    Assessment assessment =
+        frames.judge(image, layer, row ? acquisition::noise_noted(row->metrics) : std::nullopt);
     frames.accept(assessment, flagged);
     if (layer < range.first) continue;
     if (flagged && assessment.lacks_only_sharpness) {

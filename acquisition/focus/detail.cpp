@@ -18,24 +18,21 @@ double mean_brightness(const FrameMeasures& measures) {
   return pixels > 0.0 ? sum / pixels : 0.0;
 }
 
-/// The variance by noise of a level's energy that is the mean over `pixels`. White noise of
-/// variance v adds 3v/16 to each axis; the squares of neighbouring gradients hang together, which
-/// makes the mean's variance three times that of independent ones, and what is taken out for noise
-/// carries an error of its own, about as large. The wave and the noise beat: 4 · energy · 3v/16.
-double variance_of(double energy, double noise_variance, double pixels) {
-  constexpr double kNoiseAlone = 1.7;
-  constexpr double kBeat = 1.5;
-  return (kNoiseAlone * noise_variance * noise_variance +
-          kBeat * std::max(energy, 0.0) * noise_variance) /
-         pixels;
+/// The variance by noise of a level's energy that is the mean over `pixels`, of which noise adds
+/// `noise` along each axis. The squares of neighbouring gradients hang together, which makes the
+/// mean's variance three times that of independent ones, and what is taken out for noise carries an
+/// error of its own, about as large. The wave and the noise beat: twice 4 · energy · noise.
+double variance_of(double energy, double noise, double pixels) {
+  constexpr double kNoiseAlone = 48.0;
+  constexpr double kBeat = 8.0;
+  return (kNoiseAlone * noise * noise + kBeat * std::max(energy, 0.0) * noise) / pixels;
 }
 
 Detail detail_of(const TileMeasures& tile, double pixels, double scale) {
-  const double noise = tile.noise * tile.noise;
-  const double fine = tile.fine.sum();
-  const double middle = tile.middle.sum();
-  const double variance =
-      variance_of(fine, noise, pixels) + variance_of(middle, 0.25 * noise, 0.25 * pixels);
+  const double fine = tile.detail(DetailBand::fine).sum();
+  const double middle = tile.detail(DetailBand::middle).sum();
+  const double variance = variance_of(fine, tile.noise[DetailBand::fine], pixels) +
+                          variance_of(middle, tile.noise[DetailBand::middle], 0.25 * pixels);
   return {scale * (fine + middle), scale * std::sqrt(variance)};
 }
 

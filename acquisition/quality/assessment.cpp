@@ -8,6 +8,7 @@
 #include "acquisition/quality/face_judgement.hpp"
 #include "acquisition/quality/judgement.hpp"
 #include "acquisition/quality/light_judgement.hpp"
+#include "acquisition/quality/noise_judgement.hpp"
 #include "acquisition/quality/sharpness_judgement.hpp"
 #include "acquisition/quality/surface_judgement.hpp"
 
@@ -76,7 +77,9 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   result.face = std::make_shared<const FacePrint>(take_face_print(image));
   judge_rows(expectation.faces, thresholds, judgement);
 
+  SharpnessRecord sharpness = expectation.sharpness;
   result.measures = std::make_shared<const FrameMeasures>(measure_frame(image));
+  judge_noise(expectation.layer, sharpness, judgement);
   const Light light = light_of(*result.measures);
   judgement.at_least(
       "brightness_minimum", light.brightness, thresholds.minimum_brightness, "too-dark",
@@ -94,10 +97,11 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   judge_light(expectation.surfaces, thresholds, judgement);
 
   const bool good_so_far = result.slug.empty();
-  const bool has_detail =
-      judge_sharpness(expectation.sharpness, expectation.layer, thresholds, judgement);
+  const bool has_detail = judge_sharpness(sharpness, expectation.layer, thresholds, judgement);
   const bool lacks_sharpness = good_so_far && !result.slug.empty();
-  const bool face_is_told = judge_face_change(expectation.faces, thresholds, judgement);
+  const bool face_is_told = judge_face_change(
+      expectation.faces, sharpness.noise() ? sharpness.noise()->face : std::nullopt, thresholds,
+      judgement);
   // A face whose detail is gone counts as changed, whatever it is the face of.
   result.lacks_only_sharpness =
       lacks_sharpness && has_detail && face_is_told && result.shows_the_face;

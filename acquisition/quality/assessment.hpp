@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/quality/camera_noise.hpp"
 #include "acquisition/quality/face_change.hpp"
 #include "acquisition/quality/face_print.hpp"
 #include "acquisition/quality/face_record.hpp"
@@ -57,6 +58,8 @@ struct Assessment {
   // None of these when the frame is not of the sample's size.
   std::shared_ptr<const FacePrint> face;
   std::shared_ptr<const FrameMeasures> measures;
+  /// As this frame and the focus search's of the same face tell it; nothing without such a search.
+  std::optional<CameraNoise> noise;
   std::shared_ptr<const SurfacePrint> surface;
   FrameLight light;
   double arrived = 0.0;  ///< part of the frame in which new tissue came up: see SurfaceDefects

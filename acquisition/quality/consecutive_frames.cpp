@@ -13,16 +13,19 @@ void ConsecutiveFrames::recall(FaceRecord faces, SharpnessRecord sharpness,
   expectation_.surfaces = std::move(surfaces);
 }
 
-Assessment ConsecutiveFrames::judge(const cv::Mat& image, std::int64_t layer) {
+Assessment ConsecutiveFrames::judge(const cv::Mat& image, std::int64_t layer,
+                                    const std::optional<CameraNoise>& noise) {
   if (expectation_.width == 0) {
     expectation_.width = image.cols;
     expectation_.height = image.rows;
     expectation_.type = image.type();
   }
   expectation_.layer = layer;
+  if (noise && !expectation_.sharpness.noise()) expectation_.sharpness.know_noise(*noise);
   bridge::Frame frame;
   frame.image = image;
   Assessment assessment = assess(frame, expectation_, thresholds_);
+  assessment.noise = noise;
   if (assessment.face) expectation_.faces.saw(*assessment.face);
   return assessment;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <opencv2/core/mat.hpp>
 
@@ -20,8 +21,9 @@ class ConsecutiveFrames {
   void recall(FaceRecord faces, SharpnessRecord sharpness, SurfaceRecord surfaces);
 
   /// The next image, CV_8UC3 or CV_16UC3, R G B. Findings name the layers by these numbers, which
-  /// may leave some out.
-  Assessment judge(const cv::Mat& image, std::int64_t layer);
+  /// may leave some out. `noise` is what the layer's focus search told of it, if it did.
+  Assessment judge(const cv::Mat& image, std::int64_t layer,
+                   const std::optional<CameraNoise>& noise = std::nullopt);
 
   /// The image judged last is a layer: the next ones are compared with it; in their sharpness only
   /// when it has no flag.

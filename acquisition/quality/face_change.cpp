@@ -8,6 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "acquisition/quality/noise_moments.hpp"
+
 namespace biotomy::acquisition {
 namespace {
 
@@ -28,7 +30,7 @@ constexpr double kLeastDirection = 1e-4;
 constexpr std::size_t kWholeShare = 8;
 constexpr std::size_t kLineShare = 4;
 
-constexpr std::size_t kPredictors = 6;
+constexpr std::size_t kPredictors = kDerivatives;
 constexpr std::size_t kFields = kPredictors + 1;
 constexpr std::size_t kWidest = FacePrint::kMostCore;
 /// Sums of products of the fields: the face to be explained, then its predictors.
@@ -50,7 +52,9 @@ struct Strength {
   double signal = 0.0;
   double noise = 0.0;
 
-  explicit Strength(const Patch& patch) : noise(energy(patch.noise)) {
+  Strength(const Patch& patch, const std::optional<BandNoise>& known)
+      : noise(known ? known->at(patch.brightness) * core_of(patch.detail).area()
+                    : energy(patch.noise)) {
     signal = std::max(0.0, energy(patch.detail) - noise);
   }
   bool has_content() const { return signal > 0.0 && signal >= kLeastContent * (signal + noise); }
@@ -111,6 +115,17 @@ void add_moments(const cv::Mat& target, const cv::Mat& predictor, cv::Point shif
   }
 }
 
+/// Noise whose strength alone is known: it has nothing in common between the two.
+void take_out_noise(double of_target, double of_predictor, Moments& moments) {
+  const DerivativeMoments& unit = unit_noise_moments();
+  moments[0][0] -= of_target;
+  for (std::size_t i = 0; i < kPredictors; ++i) {
+    for (std::size_t j = i; j < kPredictors; ++j) {
+      moments[i + 1][j + 1] -= of_predictor * unit[i][j];
+    }
+  }
+}
+
 /// The part of the target's energy that the best mixture of the predictors explains.
 double explained_share(const Moments& moments) {
   constexpr int kSize = static_cast<int>(kPredictors);
@@ -146,9 +161,10 @@ double explained_share(const Moments& moments) {
 }
 
 /// Nothing without content in either of the two.
-std::optional<Change> change_of_patch(const Patch& now, const Patch& before, cv::Point shift) {
-  const Strength strength_now(now);
-  const Strength strength_before(before);
+std::optional<Change> change_of_patch(const Patch& now, const Patch& before, cv::Point shift,
+                                      const std::optional<BandNoise>& noise) {
+  const Strength strength_now(now, noise);
+  const Strength strength_before(before, noise);
   const bool now_is_stronger = strength_now.signal > strength_before.signal;
   const Strength& strong = now_is_stronger ? strength_now : strength_before;
   const Strength& weak = now_is_stronger ? strength_before : strength_now;
@@ -160,15 +176,19 @@ std::optional<Change> change_of_patch(const Patch& now, const Patch& before, cv:
   const cv::Point to_predictor = now_is_stronger ? -shift : shift;
   Moments moments{};
   add_moments(target.detail, predictor.detail, to_predictor, 1.0, moments);
-  add_moments(target.noise, predictor.noise, to_predictor, -1.0, moments);
+  if (noise) {
+    take_out_noise(weak.noise, strong.noise, moments);
+  } else {
+    add_moments(target.noise, predictor.noise, to_predictor, -1.0, moments);
+  }
   if (moments[0][0] <= 0.0) return std::nullopt;
 
   // Both the noise left over and the noise taken out are known only as well as so many independent
   // values tell them.
   const double independent = static_cast<double>(core_of(target.detail).area()) / kNoiseArea;
-  const double noise = strong.noise / strong.signal + weak.noise / weak.signal;
+  const double relative_noise = strong.noise / strong.signal + weak.noise / weak.signal;
   return Change{.value = std::min(1.0, 1.0 - explained_share(moments)),
-                .error = 2.0 * noise / std::sqrt(independent)};
+                .error = 2.0 * relative_noise / std::sqrt(independent)};
 }
 
 /// By how much `before` is displaced against `now`, from all patches together.
@@ -230,7 +250,8 @@ class UpperQuartile {
 
 }  // namespace
 
-FaceChange measure_face_change(const FacePrint& now, const FacePrint& before) {
+FaceChange measure_face_change(const FacePrint& now, const FacePrint& before,
+                               const std::optional<BandNoise>& noise) {
   FaceChange change;
   const bool comparable = now.columns == before.columns && now.rows == before.rows &&
                           !now.patches.empty() &&
@@ -242,7 +263,7 @@ FaceChange measure_face_change(const FacePrint& now, const FacePrint& before) {
   cv::parallel_for_({0, static_cast<int>(patches.size())}, [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      patches[k] = change_of_patch(now.patches[k], before.patches[k], shift);
+      patches[k] = change_of_patch(now.patches[k], before.patches[k], shift, noise);
     }
   });
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "acquisition/quality/camera_noise.hpp"
 #include "acquisition/quality/face_print.hpp"
 
 namespace biotomy::acquisition {
@@ -30,6 +31,10 @@ struct FaceChange {
 /// frame, is found and undone before. The change is the part of the detail's energy that is left
 /// over, with every sum's share of noise taken out: the same sums over the prints' noise. Detail
 /// that has faded below a quarter of its energy, or come from there, counts as wholly changed.
-FaceChange measure_face_change(const FacePrint& now, const FacePrint& before);
+///
+/// `noise` is what is known of the noise of both, where it is not white; without it the prints'
+/// own is taken out.
+FaceChange measure_face_change(const FacePrint& now, const FacePrint& before,
+                               const std::optional<BandNoise>& noise = std::nullopt);
 
 }  // namespace biotomy::acquisition

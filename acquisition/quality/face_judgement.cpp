@@ -120,11 +120,11 @@ void judge_rows(const FaceRecord& faces, const QualityThresholds& thresholds,
   if (!alive || !fresh) judgement.result().shows_the_face = false;
 }
 
-bool judge_face_change(const FaceRecord& faces, const QualityThresholds& thresholds,
-                       Judgement& judgement) {
+bool judge_face_change(const FaceRecord& faces, const std::optional<BandNoise>& noise,
+                       const QualityThresholds& thresholds, Judgement& judgement) {
   if (faces.face() == nullptr || thresholds.minimum_face_change <= 0.0) return true;
   Assessment& result = judgement.result();
-  result.face_change = measure_face_change(*result.face, *faces.face());
+  result.face_change = measure_face_change(*result.face, *faces.face(), noise);
 
   const double least = faces.least_change().value_or(0.0);
   const double limit =

@@ -23,7 +23,7 @@ void judge_rows(const FaceRecord& faces, const QualityThresholds& thresholds, Ju
 /// Whether the face is another than the last accepted layer's (`face_change`), everywhere
 /// (`old_part`). Without a layer before, or without detail to tell by, nothing is judged; for the
 /// latter it gives false. The result has its face already.
-bool judge_face_change(const FaceRecord& faces, const QualityThresholds& thresholds,
-                       Judgement& judgement);
+bool judge_face_change(const FaceRecord& faces, const std::optional<BandNoise>& noise,
+                       const QualityThresholds& thresholds, Judgement& judgement);
 
 }  // namespace biotomy::acquisition

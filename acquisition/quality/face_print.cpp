@@ -1,7 +1,9 @@
 #include "acquisition/quality/face_print.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -24,7 +26,8 @@ int brightness(const Value* pixel) {
 
 template <typename Value>
 void part_diagonals(const cv::Mat& image, const cv::Rect& place, cv::Mat& detail, cv::Mat& noise) {
-  constexpr float kEighth = 0.125F;  // of four pixels, each four times over, half
+  // Of four pixels, each four times over.
+  constexpr float kScale = 1.0F / (16.0F * static_cast<float>(std::numeric_limits<Value>::max()));
   for (int y = 0; y < place.height; ++y) {
     const auto* upper = image.ptr<Value>(2 * (place.y + y)) + 6 * place.x;
     const auto* lower = image.ptr<Value>(2 * (place.y + y) + 1) + 6 * place.x;
@@ -33,19 +36,10 @@ void part_diagonals(const cv::Mat& image, const cv::Rect& place, cv::Mat& detail
     for (int x = 0; x < place.width; ++x) {
       const int falling = brightness(upper + 6 * x) + brightness(lower + 6 * x + 3);
       const int rising = brightness(upper + 6 * x + 3) + brightness(lower + 6 * x);
-      detail_row[x] = kEighth * static_cast<float>(falling + rising);
-      noise_row[x] = kEighth * static_cast<float>(falling - rising);
+      detail_row[x] = kScale * static_cast<float>(falling + rising);
+      noise_row[x] = kScale * static_cast<float>(falling - rising);
     }
   }
-}
-
-/// The band of `image`, of it the part `wanted`.
-cv::Mat band(const cv::Mat& image, const cv::Rect& wanted) {
-  cv::Mat fine;
-  cv::Mat broad;
-  cv::GaussianBlur(image, fine, {kFineWindow, kFineWindow}, kFine);
-  cv::GaussianBlur(image, broad, {kBroadWindow, kBroadWindow}, kBroad);
-  return fine(wanted) - broad(wanted);
 }
 
 /// The part `index` of `count` along an axis of `length`, as begin and size, not longer than a
@@ -71,10 +65,30 @@ FacePrint::Patch take_patch(const cv::Mat& image, const cv::Size& half, const cv
     part_diagonals<std::uint8_t>(image, looked_at, detail, noise);
   }
   const cv::Rect inside(kept.tl() - looked_at.tl(), kept.size());
-  return {band(detail, inside), band(noise, inside)};
+  return {print_band(detail, inside), print_band(noise, inside), cv::mean(detail)[0]};
 }
 
 }  // namespace
+
+cv::Mat print_band(const cv::Mat& half, const cv::Rect& wanted) {
+  cv::Mat fine;
+  cv::Mat broad;
+  cv::GaussianBlur(half, fine, {kFineWindow, kFineWindow}, kFine);
+  cv::GaussianBlur(half, broad, {kBroadWindow, kBroadWindow}, kBroad);
+  return fine(wanted) - broad(wanted);
+}
+
+std::optional<double> print_energy(const BrightnessPlane& plane) {
+  BrightnessPlane half;
+  halve(plane, half);
+  const cv::Mat picture(half.height, half.width, CV_32FC1, half.values.data());
+  constexpr int kMargin = kBroadWindow / 2;
+  const cv::Rect inner(kMargin, kMargin, half.width - 2 * kMargin, half.height - 2 * kMargin);
+  if (inner.width < 1 || inner.height < 1) return std::nullopt;
+  const cv::Mat detail = print_band(picture, inner);
+  const double energy = detail.dot(detail) / inner.area();
+  return std::isfinite(energy) ? std::optional(energy) : std::nullopt;
+}
 
 FacePrint take_face_print(const cv::Mat& image) {
   FacePrint print;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <opencv2/core/mat.hpp>
 
+#include "acquisition/quality/brightness_plane.hpp"
 #include "acquisition/quality/frame_rows.hpp"
 
 namespace biotomy::acquisition {
@@ -19,8 +21,9 @@ namespace biotomy::acquisition {
 /// lighting does is broader, what noise does is finer.
 struct FacePrint {
   struct Patch {
-    cv::Mat detail;  ///< CV_32FC1, with its noise
-    cv::Mat noise;   ///< likewise, the noise alone
+    cv::Mat detail;           ///< CV_32FC1, of full scale, with its noise
+    cv::Mat noise;            ///< likewise, the noise alone, if it is white
+    double brightness = 0.0;  ///< mean, of full scale
   };
 
   /// How far a patch reaches beyond its core on all sides, pixels of the half resolution.
@@ -42,5 +45,12 @@ struct FacePrint {
 /// `image` is CV_8UC3 or CV_16UC3, R G B. Frames of one size have patches at the same places: at
 /// most 8 × 8 in all.
 FacePrint take_face_print(const cv::Mat& image);
+
+/// The band of a CV_32FC1 at half the resolution, of it the part `wanted`.
+cv::Mat print_band(const cv::Mat& half, const cv::Rect& wanted);
+
+/// The mean square of the detail that a print of this picture has in its middle, where its edges do
+/// not matter; nothing when it is too small for that or has pixels that do not count.
+std::optional<double> print_energy(const BrightnessPlane& plane);
 
 }  // namespace biotomy::acquisition

@@ -148,8 +148,7 @@ std::optional<double> compare_contrast(const FrameMeasures& frame, References re
     const int pixels = frame.grid.tile(static_cast<int>(i)).area();
     const double certain = certainty(references, i, kBandPairs[1], pixels);
     if (alike < kLeastLikeness || certain <= 0.0) continue;
-    changes.push_back(
-        {change_of_energy(tile, references, i, &TileMeasures::fine), alike * certain});
+    changes.push_back({change_of_energy(tile, references, i, DetailBand::fine), alike * certain});
   }
   if (changes.size() < kLeastTiles) return std::nullopt;
   // Of energies, and contrast is an amplitude.

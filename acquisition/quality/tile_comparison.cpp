@@ -33,9 +33,9 @@ double typical(References references, std::size_t tile, const Property& property
 }
 
 /// A band's energy relative to the brightness: neither lamp nor exposure change it.
-double relative_energy(const TileMeasures& tile, DetailEnergy TileMeasures::*band) {
+double relative_energy(const TileMeasures& tile, DetailBand band) {
   const double brightness = std::max(tile.brightness(), kLeastEnergy);
-  return std::max((tile.*band).sum(), kLeastEnergy) / (brightness * brightness);
+  return std::max(tile.detail(band).sum(), kLeastEnergy) / (brightness * brightness);
 }
 
 /// 1 for no change, six tenths for one of `scale`.
@@ -62,7 +62,8 @@ bool comparable(const FrameMeasures& frame, References references) {
 }
 
 double quotient(const TileMeasures& tile, const BandPair& pair, Axes axes) {
-  return std::max(axes(tile.*pair.fine), 0.0) / std::max(axes(tile.*pair.coarse), kLeastEnergy);
+  return std::max(axes(tile.detail(pair.fine)), 0.0) /
+         std::max(axes(tile.detail(pair.coarse)), kLeastEnergy);
 }
 
 std::optional<double> change_of_quotient(const TileMeasures& tile, References references,
@@ -75,7 +76,7 @@ std::optional<double> change_of_quotient(const TileMeasures& tile, References re
 }
 
 double change_of_energy(const TileMeasures& tile, References references, std::size_t number,
-                        DetailEnergy TileMeasures::*band) {
+                        DetailBand band) {
   return std::log(relative_energy(tile, band) /
                   typical(references, number, [band](const TileMeasures& reference) {
                     return relative_energy(reference, band);
@@ -83,7 +84,7 @@ double change_of_energy(const TileMeasures& tile, References references, std::si
 }
 
 double likeness_of_detail(const TileMeasures& tile, References references, std::size_t number) {
-  return likeness_of(change_of_energy(tile, references, number, &TileMeasures::coarse),
+  return likeness_of(change_of_energy(tile, references, number, DetailBand::coarse),
                      kContentChange);
 }
 
@@ -98,12 +99,12 @@ double likeness_of_colours(const TileMeasures& tile, References references, std:
 
 double certainty(References references, std::size_t number, const BandPair& pair, int pixels) {
   const double energy = typical(references, number, [&](const TileMeasures& tile) {
-    return std::max((tile.*pair.fine).sum(), kLeastEnergy);
+    return std::max(tile.detail(pair.fine).sum(), kLeastEnergy);
   });
   const double noise =
-      typical(references, number, [](const TileMeasures& tile) { return tile.noise; });
+      typical(references, number, [&](const TileMeasures& tile) { return tile.noise[pair.fine]; });
   const double fluctuation =
-      pair.noise * noise * noise / std::sqrt(static_cast<double>(pixels)) / energy;
+      pair.fluctuation * 2.0 * noise / std::sqrt(static_cast<double>(pixels)) / energy;
   if (fluctuation > kMostFluctuation) return 0.0;
   return 1.0 / (pair.scatter * pair.scatter + fluctuation * fluctuation);
 }

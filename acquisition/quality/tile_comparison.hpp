@@ -12,12 +12,12 @@ namespace biotomy::acquisition {
 
 /// Two neighbouring bands of a tile's detail. Blur takes more of the finer.
 struct BandPair {
-  DetailEnergy TileMeasures::*fine;
-  DetailEnergy TileMeasures::*coarse;
-  double effect;   ///< on the logarithm of their quotient, relative to the first pair's
-  double noise;    ///< standard deviation of the finer energy, both axes, that white noise of
-                   ///< variance 1 leaves in a tile, times the root of its pixels
-  double scatter;  ///< of the logarithm, between tiles of neighbouring faces without noise
+  DetailBand fine;
+  DetailBand coarse;
+  double effect;       ///< on the logarithm of their quotient, relative to the first pair's
+  double fluctuation;  ///< standard deviation of the finer energy in a tile of noise alone, as a
+                       ///< part of that energy, times the root of its pixels
+  double scatter;      ///< of the logarithm, between tiles of neighbouring faces without noise
 };
 
 /// What each pair is good for: the first feels blur most but drowns in noise where there is little
@@ -25,9 +25,9 @@ struct BandPair {
 /// on the twin's tissue and casting material, the scatter is that of its layers; what noise leaves
 /// was measured on pictures of nothing else.
 inline constexpr std::array kBandPairs = {
-    BandPair{&TileMeasures::curvature, &TileMeasures::fine, 1.0, 20.0, 0.10},
-    BandPair{&TileMeasures::fine, &TileMeasures::middle, 0.25, 1.3, 0.08},
-    BandPair{&TileMeasures::middle, &TileMeasures::coarse, 0.08, 0.4, 0.08}};
+    BandPair{DetailBand::curvature, DetailBand::fine, 1.0, 1.67, 0.10},
+    BandPair{DetailBand::fine, DetailBand::middle, 0.25, 3.5, 0.08},
+    BandPair{DetailBand::middle, DetailBand::coarse, 0.08, 4.3, 0.08}};
 
 /// A tile that is less like its references counts for nothing.
 inline constexpr double kLeastLikeness = 0.1;
@@ -54,7 +54,7 @@ std::optional<double> change_of_quotient(const TileMeasures& tile, References re
 /// Of a band's energy relative to the brightness, which neither lamp nor exposure change, as a
 /// logarithm.
 double change_of_energy(const TileMeasures& tile, References references, std::size_t number,
-                        DetailEnergy TileMeasures::*band);
+                        DetailBand band);
 
 /// How alike a tile's content is to the references', up to 1: by the contrast of the coarse detail,
 /// which a little blur leaves alone.

@@ -5,6 +5,7 @@
 
 #include "acquisition/quality/face_judgement.hpp"
 #include "acquisition/quality/light_judgement.hpp"
+#include "acquisition/quality/noise_judgement.hpp"
 #include "acquisition/records/journal_reader.hpp"
 
 namespace biotomy::acquisition {
@@ -49,6 +50,23 @@ std::optional<CastingColour> first_casting(
   return std::nullopt;
 }
 
+/// As the last layer tells it whose focus was searched; such a layer is at most as far back as
+/// searches are apart.
+std::optional<CameraNoise> last_noise(const JournalReader& journal, std::int64_t last) {
+  constexpr std::int64_t kFarthest = 1000;
+  constexpr std::int64_t kAtATime = 16;
+  for (std::int64_t end = last; end > std::max<std::int64_t>(0, last - kFarthest);
+       end -= kAtATime) {
+    const std::int64_t first = std::max<std::int64_t>(1, end - kAtATime + 1);
+    const std::vector<LayerRow> layers = journal.committed_layers(first, end - first + 1);
+    for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+      if (layer->flagged) continue;
+      if (auto noise = noise_noted(layer->metrics)) return noise;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t last_committed,
@@ -70,6 +88,9 @@ RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t
       }
     }
     casting = first_casting(journal, last_committed);
+    if (const auto noise = last_noise(journal, last_committed)) {
+      recalled.sharpness.know_noise(*noise);
+    }
   } else {
     casting = first_casting(sample, last_committed, read_layer);
   }

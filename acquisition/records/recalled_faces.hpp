@@ -21,9 +21,9 @@ struct RecalledFaces {
 
 /// What a job that goes on behind this layer must know of the faces up to it: `read_layer` reads
 /// its image (for the sharpness the last one's without a flag), the journal says how much the faces
-/// changed, and the first layer's casting material. Without a journal, as after an import, no layer
-/// has a flag, and the first images tell the casting material. Nothing without layers. Throws
-/// JournalError, SampleError for a damaged image.
+/// changed, the first layer's casting material and the camera's noise. Without a journal, as after
+/// an import, no layer has a flag, and the first images tell the casting material. Nothing without
+/// layers. Throws JournalError, SampleError for a damaged image.
 RecalledFaces recall_faces(const reconstruct::SampleFolder& sample, std::int64_t last_committed,
                            const std::function<cv::Mat(const std::filesystem::path&)>& read_layer);
 

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "sim/phantom/gradient_noise.hpp"
+#include "sim/physics/colour_mosaic.hpp"
 
 namespace biotomy::sim {
 
@@ -99,6 +100,7 @@ cv::Mat Sensor::expose(const cv::Mat& light, double lamp, const ExposureSettings
       }
     }
   });
+  if (settings_.mosaic) interpolate_mosaic(photograph);
   return photograph;
 }
 

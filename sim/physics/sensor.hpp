@@ -9,6 +9,7 @@ namespace biotomy::sim {
 
 struct SensorSettings {
   int bits = 8;                        ///< a channel: 8 or 16
+  bool mosaic = false;                 ///< one colour a pixel: see interpolate_mosaic
   double nominal_exposure_us = 10000;  ///< at gain 1 and with the lamp on, shows true levels
   double photons_at_white = 16000;     ///< collected for level 255 at gain 1
   double read_noise_levels = 0.5;      ///< standard deviation at gain 1

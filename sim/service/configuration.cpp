@@ -10,6 +10,7 @@ namespace biotomy::sim {
 namespace {
 
 using bridge::CheckedTable;
+using bridge::FlagKey;
 using bridge::IntegerKey;
 using bridge::NumberKey;
 using bridge::TextKey;
@@ -236,6 +237,11 @@ void read_camera(const CheckedTable& camera, Configuration& c) {
                                      .description = "of a channel"}) == "16"
                       ? 16
                       : 8;
+  c.sensor.mosaic = camera.get(FlagKey{
+      .name = "mosaic",
+      .fallback = false,
+      .description = "it has one chip, whose pixels see red, green or blue; the other colours of "
+                     "each are interpolated"});
   c.optics.lens.numerical_aperture =
       number("numerical_aperture", 0.1, "", 0.001, 0.9, "on the face's side: how fast it blurs");
   c.optics.lens.wavelength_um = number("wavelength", 0.55, "um", 0.3, 1.1, "for diffraction");

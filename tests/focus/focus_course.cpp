@@ -7,6 +7,7 @@
 #include "acquisition/focus/depth_of_field.hpp"
 #include "acquisition/job/focus_step.hpp"
 #include "acquisition/quality/judgement.hpp"
+#include "acquisition/quality/noise_judgement.hpp"
 #include "acquisition/quality/sharpness_judgement.hpp"
 #include "acquisition/records/sample_records.hpp"
 #include "acquisition/rig/column_actuator.hpp"
@@ -68,6 +69,7 @@ class Bench {
       frame = focus(layer, {"the quality ladder asked for it", true}, outcome);
     }
     record_.accept(frame.measures);
+    if (frame.noise) record_.know_noise(*frame.noise);
     memory_.keep();
     if (frame.sharpness_to_peak) memory_.accepted(*frame.sharpness_to_peak);
   }
@@ -94,6 +96,7 @@ class Bench {
     Judgement judgement;
     judgement.result().measures =
         std::make_shared<const FrameMeasures>(measure_frame(photograph.image));
+    judge_noise(layer, record_, judgement);
     judge_sharpness(record_, layer, settings_.thresholds, judgement);
     return judgement.finish();
   }
@@ -123,24 +126,27 @@ class Bench {
 }  // namespace
 
 std::vector<FocusCourse> focus_courses() {
-  return {{.name = "level face", .seed = 1},
-          {.name = "tilted face, fast content",
-           .seed = 2,
-           .content_um = 300.0,
-           .tilt_across_um = 60.0,
-           .tilt_down_um = -40.0,
-           .drift_um = -0.8},
-          {.name = "little light: gain 4", .seed = 3, .tilt_across_um = -50.0, .gain = 4.0},
-          {.name = "edge of the specimen, nearly empty faces",
-           .seed = 4,
-           .specimen_um = 20000.0,
-           .drift_um = -0.5},
-          {.name = "knocked by 300 µm half-way", .seed = 6, .knock_um = 300.0},
-          {.name = "lens in place of the column",
-           .seed = 5,
-           .tilt_down_um = 50.0,
-           .drift_um = 0.8,
-           .lens = true}};
+  return {
+      {.name = "level face", .seed = 1},
+      {.name = "tilted face, fast content",
+       .seed = 2,
+       .content_um = 300.0,
+       .tilt_across_um = 60.0,
+       .tilt_down_um = -40.0,
+       .drift_um = -0.8},
+      {.name = "little light: gain 4", .seed = 3, .tilt_across_um = -50.0, .gain = 4.0},
+      {.name = "edge of the specimen, nearly empty faces",
+       .seed = 4,
+       .specimen_um = 20000.0,
+       .drift_um = -0.5},
+      {.name = "knocked by 300 µm half-way", .seed = 6, .knock_um = 300.0},
+      {.name = "lens in place of the column",
+       .seed = 5,
+       .tilt_down_um = 50.0,
+       .drift_um = 0.8,
+       .lens = true},
+      {.name = "camera with one chip", .seed = 3, .tilt_across_um = 30.0, .mosaic = true},
+      {.name = "one chip, nearly empty faces", .seed = 2, .specimen_um = 14000.0, .mosaic = true}};
 }
 
 double course_depth_of_field_um() {

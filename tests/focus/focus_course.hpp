@@ -24,6 +24,7 @@ struct FocusCourse {
   double knock_um = 0.0;        ///< by which something moves the column half-way through
   double gain = 1.0;            ///< of the camera, with so much less light: its noise
   bool lens = false;            ///< focused by a lens in place of the column
+  bool mosaic = false;          ///< the camera has one chip: see sim::interpolate_mosaic
 };
 
 /// The courses of the proof: several phantoms, tilted and level faces, little and much light, fast

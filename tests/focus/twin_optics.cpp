@@ -50,7 +50,7 @@ TwinOptics::TwinOptics(const FocusCourse& course)
     : mover(mover_of(course), kFirstFaceUm - kOffsetUm - 1000.0),
       course_(course),
       phantom_(phantom_of(course)),
-      camera_(course.seed, phantom_, kFirstFaceUm, optics_of(course), sim::SensorSettings{}),
+      camera_(course.seed, phantom_, kFirstFaceUm, optics_of(course), {.mosaic = course.mosaic}),
       block_(course.seed, kFirstFaceUm, 0.3, sim::DebrisSettings{}),
       face_um_(kFirstFaceUm) {}
 

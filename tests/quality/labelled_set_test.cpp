@@ -7,9 +7,14 @@
 namespace biotomy::tests {
 namespace {
 
-TEST(Assessment, AcceptsThePartsGoodFramesAndMissesOfEachDefectAtMostAWeakOne) {
+class PartOfTheLabelledSet : public testing::TestWithParam<bool> {};
+
+TEST_P(PartOfTheLabelledSet, HasItsGoodFramesAcceptedAndAtMostAWeakOneOfEachDefectMissed) {
   std::vector<SequenceSettings> set = labelled_set(Seeds::test, 6);
-  for (SequenceSettings& settings : set) settings.layers = 12;
+  for (SequenceSettings& settings : set) {
+    settings.layers = 12;
+    settings.mosaic = GetParam();
+  }
   const std::vector<JudgedFrame> frames = judge_set(set, 2);
   const SetResults results = results_of(frames);
   ASSERT_EQ(results.all.frames, 198);
@@ -28,6 +33,10 @@ TEST(Assessment, AcceptsThePartsGoodFramesAndMissesOfEachDefectAtMostAWeakOne) {
         << wrong_answers(frames);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Cameras, PartOfTheLabelledSet, testing::Bool(), [](const auto& mosaic) {
+  return mosaic.param ? "WithOneChip" : "WithWhiteNoise";
+});
 
 }  // namespace
 }  // namespace biotomy::tests

@@ -79,7 +79,7 @@ PhantomSequence::PhantomSequence(const SequenceSettings& settings)
       optics_{.view = {.width = settings.width,
                        .height = settings.height,
                        .pixel_um = settings.pixel_um}},
-      camera_(settings.seed, phantom_, kFirstFaceUm, optics_, {}),
+      camera_(settings.seed, phantom_, kFirstFaceUm, optics_, {.mosaic = settings.mosaic}),
       block_(settings.seed, kFirstFaceUm, 0.0, chips(settings)),
       focus_drift_um_(drawn_.between(-kFocusDriftUm, kFocusDriftUm)),
       lamp_drift_(drawn_.between(-kLampDrift, kLampDrift)) {}

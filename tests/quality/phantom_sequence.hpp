@@ -20,6 +20,7 @@ struct SequenceSettings {
   int layers = 30;
   double layer_um = 20.0;
   double pixel_um = 10.0;
+  bool mosaic = false;            ///< the camera has one chip: see sim::interpolate_mosaic
   double detail_pixels = 3.5;     ///< the specimen's finest detail
   double depth_layers = 50.0;     ///< over so many layers the anatomy changes markedly
   double begins_at_layer = -1e6;  ///< before it there is casting alone

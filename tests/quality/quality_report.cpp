@@ -1,7 +1,7 @@
 // What the daemon's assessment makes of the labelled set, with its default thresholds: prints the
 // tables of docs/quality.md, or JSON. Ends with 1 when a goal is missed.
 //
-//   quality_report [--seeds train|test] [--sequences 36] [--width 1600] [--threads 2]
+//   quality_report [--seeds train|test] [--sequences 36] [--width 1600] [--mosaic] [--threads 2]
 //                  [--json] [--wrong]
 
 #include <algorithm>
@@ -26,6 +26,7 @@ struct Options {
   int sequences = 36;
   int width = SequenceSettings{}.width;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+  bool mosaic = false;
   bool as_json = false;
   bool wrong = false;
 };
@@ -37,6 +38,7 @@ int report(const Options& options) {
   for (SequenceSettings& settings : set) {
     settings.width = options.width;
     settings.height = options.width * 3 / 4;
+    settings.mosaic = options.mosaic;
   }
   const bool watched = isatty(STDERR_FILENO) != 0;
   std::size_t done = 0;
@@ -68,6 +70,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "Sequences at a time")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  app.add_flag("--mosaic", options.mosaic, "Of a camera with one chip: colours are interpolated");
   app.add_flag("--json", options.as_json, "Print JSON in place of tables");
   app.add_flag("--wrong", options.wrong, "List every wrong answer on stderr");
   try {

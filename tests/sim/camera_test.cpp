@@ -229,6 +229,22 @@ TEST(Camera, ShowsTheStepOfABrokenPass) {
   EXPECT_GT(left, 2 * right);
 }
 
+TEST(Camera, WithOneChipSeesOneColourAPixelAndInterpolatesTheOthers) {
+  Studio studio;
+  const cv::Mat all = studio.take().image;
+  studio.sensor.mosaic = true;
+  const cv::Mat mosaic = studio.take().image;
+  ASSERT_EQ(mosaic.type(), CV_8UC3);
+  for (int y = 60; y < 64; ++y) {
+    for (int x = 60; x < 64; ++x) {
+      const int seen = x % 2 + y % 2;
+      EXPECT_EQ(mosaic.at<cv::Vec3b>(y, x)[seen], all.at<cv::Vec3b>(y, x)[seen]) << x << ", " << y;
+    }
+  }
+  EXPECT_LT(cv::norm(cv::mean(mosaic) - cv::mean(all)), 2.0);
+  EXPECT_NE(cv::norm(mosaic, all), 0.0);
+}
+
 TEST(Camera, TakesSixteenBitsIfToldTo) {
   Studio studio;
   const double mean = cv::mean(studio.take().image)[1];

@@ -51,7 +51,8 @@ TEST(Autofocus, FindsThePeakBetweenItsPointsWithOneBracketAndAFrameThatConfirmsI
   EXPECT_NEAR(focus.found()->position.value, 5037.0, 0.5);
   EXPECT_EQ(search.frames, 6);
   ASSERT_TRUE(focus.found()->measures);
-  EXPECT_NEAR(focus.found()->measures->tiles[0].fine.along_x, face.detail, 0.01 * face.detail);
+  EXPECT_NEAR(focus.found()->measures->tiles[0].detail(DetailBand::fine).along_x, face.detail,
+              0.01 * face.detail);
 }
 
 TEST(Autofocus, MovesTheBracketOnUntilThePeakIsInside) {

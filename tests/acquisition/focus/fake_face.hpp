@@ -35,8 +35,12 @@ struct FakeFace {
       const double left = number < covered_tiles ? 1.0 : std::exp(-0.5 * away * away);
       acquisition::TileMeasures seen;
       seen.mean = {0.5, 0.5, 0.5};
-      seen.noise = noise;
-      seen.fine.along_x = detail * left + noise * noise / 80.0 * normal(random);
+      for (std::size_t band = 0; band < acquisition::kDetailBands; ++band) {
+        seen.noise.values[band] = noise * noise * acquisition::kWhiteNoise.values[band];
+        seen.energy.values[band] = {seen.noise.values[band], seen.noise.values[band]};
+      }
+      seen.energy[acquisition::DetailBand::fine].along_x +=
+          detail * left + noise * noise / 80.0 * normal(random);
       measures->tiles.push_back(seen);
     }
     return measures;

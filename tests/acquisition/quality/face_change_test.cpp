@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "acquisition/quality/assessment.hpp"
 #include "tests/acquisition/fake_rig.hpp"
 #include "tests/acquisition/quality/phantom_photographer.hpp"
 
@@ -27,6 +28,26 @@ struct Comparison {
   PhantomPhotographer photographer;
   FacePrint before;
 };
+
+TEST(FaceChange, IsNoneWhenACameraWithOneChipPhotographsCastingMaterialAgain) {
+  PhotographerSettings settings{.width = 640, .height = 640, .left_um = 0.0, .top_um = 0.0};
+  settings.sensor = {.mosaic = true, .photons_at_white = 4000};
+  PhantomPhotographer camera(settings);
+  const cv::Mat one = camera.photograph(100.0);
+  const cv::Mat other = camera.photograph(100.0);
+  const auto noise = noise_between(measure_frame(one), measure_frame(other));
+  ASSERT_TRUE(noise && noise->face);
+  const FacePrint before = take_face_print(one);
+  const FacePrint now = take_face_print(other);
+  const double limit = QualityThresholds{}.minimum_face_change;
+  EXPECT_GT(measure_face_change(now, before).whole.value().value, limit)
+      << "its noise passes for detail";
+  const auto again = measure_face_change(now, before, noise->face).whole;
+  ASSERT_TRUE(again);
+  EXPECT_LT(again->value, limit);
+  const FacePrint deeper = take_face_print(camera.photograph(120.0));
+  EXPECT_GT(measure_face_change(deeper, before, noise->face).whole.value().value, 0.05);
+}
 
 class FaceChangeOfSpecimen : public testing::TestWithParam<std::uint64_t> {
  protected:

@@ -55,6 +55,32 @@ TEST(SharpnessJudgement, ComparesWithThisLayersSearchWhereThereWasOne) {
   EXPECT_THAT(judged.judge(5, kFarOut).reason, HasSubstr("of this layer's focus peak"));
 }
 
+TEST(SharpnessJudgement, SeesBlurThroughTheNoiseOfACameraWithOneChip) {
+  // Where there is little detail and little light: casting material at a high gain.
+  PhotographerSettings settings{.width = 640, .height = 480, .left_um = 0.0, .top_um = 0.0};
+  settings.sensor = {.mosaic = true, .photons_at_white = 1000};
+  PhantomPhotographer camera(settings);
+  const auto frame = [&](int layer, double defocus_um) {
+    return std::make_shared<const FrameMeasures>(
+        measure_frame(camera.photograph(20.0 * layer, 0.0, 0.0, defocus_um)));
+  };
+  SharpnessRecord record;
+  for (int layer = 1; layer <= 3; ++layer) record.accept(frame(layer, 0.0));
+  const auto verdict = [&](double defocus_um) {
+    Judgement judgement;
+    judgement.result().measures = record.expressed(frame(4, defocus_um));
+    judge_sharpness(record, 4, {}, judgement);
+    return judgement.finish().verdict;
+  };
+  constexpr double kOut = 80.0;  // leaves 0.88 of the sharpness
+  EXPECT_EQ(verdict(kOut), Verdict::accepted) << "its noise passes for detail";
+  const auto noise = noise_between(*frame(3, 0.0), *frame(3, 0.0));
+  ASSERT_TRUE(noise);
+  record.know_noise(*noise);
+  EXPECT_EQ(verdict(kOut), Verdict::rejected);
+  EXPECT_EQ(verdict(0.0), Verdict::accepted);
+}
+
 TEST(SharpnessJudgement, SeesThatAThirdOfTheFrameIsBlurredWhateverTheMedianSays) {
   Judged judged;
   for (int layer = 1; layer <= 4; ++layer) judged.record.accept(judged.frame(layer));

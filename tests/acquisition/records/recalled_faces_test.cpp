@@ -1,5 +1,8 @@
 #include "acquisition/records/recalled_faces.hpp"
 
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
@@ -42,6 +45,36 @@ struct Past {
     });
   }
 };
+
+/// As a camera's noise is noted with a layer whose focus was searched.
+std::vector<Metric> noted_noise(double of_all_bands) {
+  std::vector<Metric> metrics;
+  for (const char* band : {"curvature", "fine", "middle", "coarse", "face"}) {
+    metrics.push_back({"noise_" + std::string(band) + "_dark", of_all_bands, 1.0, true});
+    metrics.push_back({"noise_" + std::string(band) + "_light", 0.0, 1.0, true});
+  }
+  return metrics;
+}
+
+TEST(RecalledFaces, KnowTheNoiseThatTheLastSearchedLayerWithoutAFlagNoted) {
+  Past past;
+  for (std::int64_t layer = 1; layer <= 40; ++layer) {
+    AttemptRow attempt;
+    attempt.layer = layer;
+    attempt.attempt = 1;
+    attempt.assessment.verdict = layer == 12 ? Verdict::accepted_with_flag : Verdict::accepted;
+    if (layer == 5) attempt.assessment.metrics = noted_noise(1e-6);
+    if (layer == 9) attempt.assessment.metrics = noted_noise(2e-6);
+    if (layer == 12) attempt.assessment.metrics = noted_noise(3e-6);
+    past.journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
+  }
+  const RecalledFaces recalled = past.recall(40);
+  ASSERT_TRUE(recalled.sharpness.noise());
+  EXPECT_DOUBLE_EQ(recalled.sharpness.noise()->bands[DetailBand::fine].dark, 2e-6);
+  EXPECT_DOUBLE_EQ(recalled.sharpness.recent().front()->tiles.front().noise[DetailBand::fine],
+                   2e-6);
+  EXPECT_FALSE(past.recall(4).sharpness.noise());
+}
 
 TEST(RecalledFaces, AreNoneBeforeALayerIsCommitted) {
   Past past;
