@@ -7,6 +7,7 @@
 
 #include "acquisition/focus/focus_bracket.hpp"
 #include "acquisition/focus/focus_settings.hpp"
+#include "acquisition/quality/camera_noise.hpp"
 #include "firmware_bridge/stage/stage.hpp"
 
 namespace biotomy::acquisition {
@@ -18,6 +19,7 @@ struct SearchPlan {
   /// A peak farther than this from the predicted position is not believed; none: it may lie
   /// anywhere within FocusSettings::reach.
   std::optional<bridge::Micrometres> largest_change;
+  std::optional<CameraNoise> noise{};  ///< by which frames are measured, where it is known
 };
 
 /// Looks for the position of greatest detail. A bracket of `points` positions around the predicted

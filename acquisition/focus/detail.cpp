@@ -23,7 +23,7 @@ double mean_brightness(const FrameMeasures& measures) {
 /// mean's variance three times that of independent ones, and what is taken out for noise carries an
 /// error of its own, about as large. The wave and the noise beat: twice 4 · energy · noise.
 double variance_of(double energy, double noise, double pixels) {
-  constexpr double kNoiseAlone = 48.0;
+  constexpr double kNoiseAlone = 48.4;
   constexpr double kBeat = 8.0;
   return (kNoiseAlone * noise * noise + kBeat * std::max(energy, 0.0) * noise) / pixels;
 }

@@ -36,7 +36,8 @@ FocusStep::FocusStep(const JobSettings& settings, std::unique_ptr<FocusActuator>
       worker_(worker),
       keeper_(keeper) {}
 
-void FocusStep::begin(std::int64_t layer, SearchReason reason, TimePoint now) {
+void FocusStep::begin(std::int64_t layer, SearchReason reason,
+                      const std::optional<CameraNoise>& noise, TimePoint now) {
   layer_ = layer;
   search_.reset();
   expected_.reset();
@@ -48,8 +49,9 @@ void FocusStep::begin(std::int64_t layer, SearchReason reason, TimePoint now) {
   }
   why_ = reason.words;
   phase_ = Phase::search;
-  search_.emplace(settings_, memory_.plan(layer, reason.anywhere),
-                  SearchParts{*actuator_, camera_, worker_}, now);
+  SearchPlan plan = memory_.plan(layer, reason.anywhere);
+  plan.noise = noise;
+  search_.emplace(settings_, std::move(plan), SearchParts{*actuator_, camera_, worker_}, now);
   focus_ = search_->predicted();
 }
 

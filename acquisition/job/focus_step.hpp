@@ -32,7 +32,9 @@ class FocusStep {
   FocusStep(const JobSettings& settings, std::unique_ptr<FocusActuator> actuator,
             FocusMemory& memory, bridge::Camera& camera, Worker& worker, RecordKeeper& keeper);
 
-  void begin(std::int64_t layer, SearchReason reason, TimePoint now);
+  /// `noise` is the camera's, where it is known.
+  void begin(std::int64_t layer, SearchReason reason, const std::optional<CameraNoise>& noise,
+             TimePoint now);
 
   /// True when the face is in focus. Throws StepFailure, and what the devices throw.
   bool poll(const bridge::StageStatus& status, TimePoint now);

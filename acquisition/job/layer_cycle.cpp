@@ -88,7 +88,7 @@ void LayerCycle::begin(JobState step, const bridge::StageStatus& status, TimePoi
                    std::exchange(focus_again_, false)
                        ? SearchReason{"the quality ladder asked for it", true}
                        : SearchReason{focus_memory_.why_search(layer_), false},
-                   now);
+                   expectation_.sharpness.noise(), now);
       break;
     case JobState::capturing:
       begin_capture(status);

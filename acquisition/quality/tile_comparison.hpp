@@ -25,9 +25,9 @@ struct BandPair {
 /// on the twin's tissue and casting material, the scatter is that of its layers; what noise leaves
 /// was measured on pictures of nothing else.
 inline constexpr std::array kBandPairs = {
-    BandPair{DetailBand::curvature, DetailBand::fine, 1.0, 1.67, 0.10},
-    BandPair{DetailBand::fine, DetailBand::middle, 0.25, 3.5, 0.08},
-    BandPair{DetailBand::middle, DetailBand::coarse, 0.08, 4.3, 0.08}};
+    BandPair{DetailBand::curvature, DetailBand::fine, 1.0, 1.667, 0.10},
+    BandPair{DetailBand::fine, DetailBand::middle, 0.25, 3.467, 0.08},
+    BandPair{DetailBand::middle, DetailBand::coarse, 0.08, 4.267, 0.08}};
 
 /// A tile that is less like its references counts for nothing.
 inline constexpr double kLeastLikeness = 0.1;

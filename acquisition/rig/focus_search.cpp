@@ -22,7 +22,7 @@ SearchPlan within(SearchPlan plan, const bridge::AxisLimits& limits) {
 FocusSearch::FocusSearch(const JobSettings& settings, SearchPlan plan, const SearchParts& parts,
                          TimePoint now)
     : settings_(settings),
-      plan_(within(plan, parts.actuator.limits())),
+      plan_(within(std::move(plan), parts.actuator.limits())),
       parts_(parts),
       begun_(now),
       autofocus_(settings.focus, plan_, parts.actuator.limits()) {
@@ -60,9 +60,10 @@ bool FocusSearch::poll(const bridge::StageStatus& status, TimePoint now) {
 
 void FocusSearch::take_frame(const bridge::StageStatus& status) {
   measured_at_ = parts_.actuator.reported(status).value_or(autofocus_.next()->position);
-  measured_ = run_on(parts_.worker, [camera = &parts_.camera,
+  measured_ = run_on(parts_.worker, [camera = &parts_.camera, noise = plan_.noise,
                                      time_out = settings_.camera.capture_time_out] {
-    return std::make_shared<const FrameMeasures>(measure_frame(capture(*camera, time_out).image));
+    const FrameMeasures measures = measure_frame(capture(*camera, time_out).image);
+    return std::make_shared<const FrameMeasures>(noise ? with_noise(measures, *noise) : measures);
   });
 }
 

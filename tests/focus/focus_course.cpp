@@ -79,7 +79,7 @@ class Bench {
   Assessment focus(int layer, SearchReason reason, FocusOutcome& outcome) {
     const int before = optics_.photographs;
     const TimePoint now{};
-    step_.begin(layer, reason, now);
+    step_.begin(layer, reason, record_.noise(), now);
     while (!step_.poll(column_.exchange(0), now)) {
       outcome.farthest_um = std::max(outcome.farthest_um,
                                      std::abs(optics_.mover.position_um() - optics_.sharp_at_um()));
