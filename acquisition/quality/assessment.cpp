@@ -99,9 +99,8 @@ Assessment assess(const bridge::Frame& frame, const FrameExpectation& expectatio
   const bool good_so_far = result.slug.empty();
   const bool has_detail = judge_sharpness(sharpness, expectation.layer, thresholds, judgement);
   const bool lacks_sharpness = good_so_far && !result.slug.empty();
-  const bool face_is_told = judge_face_change(
-      expectation.faces, sharpness.noise() ? sharpness.noise()->face : std::nullopt, thresholds,
-      judgement);
+  const bool face_is_told =
+      judge_face_change(expectation.faces, sharpness.noise_of_faces(), thresholds, judgement);
   // A face whose detail is gone counts as changed, whatever it is the face of.
   result.lacks_only_sharpness =
       lacks_sharpness && has_detail && face_is_told && result.shows_the_face;

@@ -16,7 +16,7 @@ constexpr int kLeastPixels = 20000;
 
 /// White noise adds to the gradient and to the curvature in one proportion. It is no longer white
 /// when this is larger, or smaller, by such a factor.
-constexpr double kColoured = 1.25;
+constexpr double kColoured = 1.5;
 
 /// What two frames tell of a tile.
 struct TilePair {
@@ -118,15 +118,17 @@ std::optional<BandNoise> noise_of_faces(const std::vector<TilePair>& tiles) {
   return line.fit();
 }
 
-/// At half the full brightness.
-bool is_white(const PerBand<BandNoise>& noise) {
-  const auto strength = [&](DetailBand band) { return noise[band].at(0.5) / kWhiteNoise[band]; };
+}  // namespace
+
+bool is_white(const CameraNoise& noise) {
+  constexpr double kBrightness = 0.5;
+  const auto strength = [&](DetailBand band) {
+    return noise.bands[band].at(kBrightness) / kWhiteNoise[band];
+  };
   const double fine = strength(DetailBand::fine);
   const double finest = strength(DetailBand::curvature);
   return fine <= kColoured * finest && finest <= kColoured * fine;
 }
-
-}  // namespace
 
 std::optional<CameraNoise> noise_between(const FrameMeasures& one, const FrameMeasures& other) {
   if (one.grid != other.grid || !one.middles || !other.middles) return std::nullopt;
@@ -146,13 +148,16 @@ std::optional<CameraNoise> noise_between(const FrameMeasures& one, const FrameMe
   for (std::size_t band = 0; band < kDetailBands; ++band) {
     noise.bands.values[band] = noise_of_band(tiles, static_cast<DetailBand>(band));
   }
-  if (is_white(noise.bands)) return std::nullopt;
   noise.face = noise_of_faces(tiles);
   return noise;
 }
 
 FrameMeasures with_noise(const FrameMeasures& measures, const CameraNoise& noise) {
   FrameMeasures changed = measures;
+  if (is_white(noise)) {
+    for (TileMeasures& tile : changed.tiles) tile.noise = white_noise(tile.white_variance);
+    return changed;
+  }
   for (TileMeasures& tile : changed.tiles) {
     for (std::size_t band = 0; band < kDetailBands; ++band) {
       tile.noise.values[band] = noise.bands.values[band].at(tile.brightness());

@@ -47,6 +47,13 @@ struct PerBand {
 /// What white noise of variance 1 adds to a band's energy, along each axis.
 inline constexpr PerBand<double> kWhiteNoise{{6.0, 3.0 / 16.0, 3.0 / 64.0, 3.0 / 256.0}};
 
+/// What white noise of a variance adds.
+inline PerBand<double> white_noise(double variance) {
+  PerBand<double> noise = kWhiteNoise;
+  for (double& band : noise.values) band *= variance;
+  return noise;
+}
+
 struct MeasuredDetail {
   PerBand<DetailEnergy> energy;  ///< with the noise still in it
   double noise_variance = 0.0;   ///< if the noise is white

@@ -76,9 +76,8 @@ class TileMeasurer {
     measures.clipped = colours.clipped / static_cast<double>(tile.area());
     const MeasuredDetail found = detail_.measure(plane_, tile - seen.tl());
     measures.energy = found.energy;
-    for (std::size_t i = 0; i < kDetailBands; ++i) {
-      measures.noise.values[i] = kWhiteNoise.values[i] * found.noise_variance;
-    }
+    measures.white_variance = found.noise_variance;
+    measures.noise = white_noise(found.noise_variance);
     middle = cut(plane_, middle_of(tile, image_.size()) - seen.tl());
     return measures;
   }

@@ -21,6 +21,7 @@ struct TileMeasures {
   double clipped = 0.0;          ///< part of its pixels
   PerBand<DetailEnergy> energy;  ///< as measured, with the noise in it
   PerBand<double> noise;         ///< of it, along each axis
+  double white_variance = 0.0;   ///< of the noise, as the tile alone tells it
 
   DetailEnergy detail(DetailBand band) const {
     return {energy[band].along_x - noise[band], energy[band].along_y - noise[band]};

@@ -25,4 +25,8 @@ SharpnessRecord::Frame SharpnessRecord::expressed(Frame frame) const {
   return std::make_shared<const FrameMeasures>(with_noise(*frame, *noise_));
 }
 
+std::optional<BandNoise> SharpnessRecord::noise_of_faces() const {
+  return noise_ && !is_white(*noise_) ? noise_->face : std::nullopt;
+}
+
 }  // namespace biotomy::acquisition

@@ -36,6 +36,8 @@ class SharpnessRecord {
   const Frame& peak() const { return peak_; }  ///< none before the first search
   std::int64_t peak_layer() const { return peak_layer_; }
   const std::optional<CameraNoise>& noise() const { return noise_; }
+  /// Of face prints; nothing when it is not known, or white, as the prints themselves tell it.
+  std::optional<BandNoise> noise_of_faces() const;
 
  private:
   std::vector<Frame> recent_;

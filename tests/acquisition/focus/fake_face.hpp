@@ -35,8 +35,9 @@ struct FakeFace {
       const double left = number < covered_tiles ? 1.0 : std::exp(-0.5 * away * away);
       acquisition::TileMeasures seen;
       seen.mean = {0.5, 0.5, 0.5};
+      seen.white_variance = noise * noise;
+      seen.noise = acquisition::white_noise(seen.white_variance);
       for (std::size_t band = 0; band < acquisition::kDetailBands; ++band) {
-        seen.noise.values[band] = noise * noise * acquisition::kWhiteNoise.values[band];
         seen.energy.values[band] = {seen.noise.values[band], seen.noise.values[band]};
       }
       seen.energy[acquisition::DetailBand::fine].along_x +=

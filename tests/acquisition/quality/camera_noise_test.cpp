@@ -63,8 +63,17 @@ TEST(CameraNoise, GrowsWithTheLight) {
   EXPECT_NEAR(fine.at(0.6) / fine.at(0.2), 3.0, 0.4);
 }
 
-TEST(CameraNoise, IsNotToldWhereItIsWhite) {
-  EXPECT_FALSE(noise_between(measure_frame(plain(1, false)), measure_frame(plain(2, false))));
+TEST(CameraNoise, ThatIsWhiteLeavesToEachTileWhatItTellsOfItself) {
+  const FrameMeasures one = measure_frame(plain(1, false));
+  const auto white = noise_between(one, measure_frame(plain(2, false)));
+  const auto coloured = noise_between(measure_frame(plain(1, true)), measure_frame(plain(2, true)));
+  ASSERT_TRUE(white && coloured);
+  EXPECT_TRUE(is_white(*white));
+  EXPECT_FALSE(is_white(*coloured));
+  const double own = one.tiles.front().noise[DetailBand::fine];
+  const FrameMeasures mistaken = with_noise(one, *coloured);
+  EXPECT_NE(mistaken.tiles.front().noise[DetailBand::fine], own);
+  EXPECT_EQ(with_noise(mistaken, *white).tiles.front().noise[DetailBand::fine], own);
 }
 
 TEST(CameraNoise, IsNotToldByTooFewPixelsOrFramesOfTwoSizes) {
