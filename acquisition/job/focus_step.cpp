@@ -51,7 +51,7 @@ void FocusStep::begin(std::int64_t layer, SearchReason reason,
   phase_ = Phase::search;
   SearchPlan plan = memory_.plan(layer, reason.anywhere);
   plan.noise = noise;
-  search_.emplace(settings_, std::move(plan), SearchParts{*actuator_, camera_, worker_}, now);
+  search_.emplace(settings_, plan, SearchParts{*actuator_, camera_, worker_}, now);
   focus_ = search_->predicted();
 }
 

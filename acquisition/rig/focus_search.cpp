@@ -22,7 +22,7 @@ SearchPlan within(SearchPlan plan, const bridge::AxisLimits& limits) {
 FocusSearch::FocusSearch(const JobSettings& settings, SearchPlan plan, const SearchParts& parts,
                          TimePoint now)
     : settings_(settings),
-      plan_(within(std::move(plan), parts.actuator.limits())),
+      plan_(within(plan, parts.actuator.limits())),
       parts_(parts),
       begun_(now),
       autofocus_(settings.focus, plan_, parts.actuator.limits()) {
