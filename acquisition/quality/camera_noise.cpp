@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include <opencv2/core/utility.hpp>
+
 #include "acquisition/quality/face_print.hpp"
 
 namespace biotomy::acquisition {
@@ -39,7 +41,8 @@ void difference(const BrightnessPlane& one, const BrightnessPlane& other, Bright
 /// All of a middle but its margin.
 cv::Rect core_of(const BrightnessPlane& middle) {
   constexpr int kReach = DetailMeasurer::kReach;
-  return {kReach, kReach, middle.width - 2 * kReach, middle.height - 2 * kReach};
+  return {kReach, kReach, std::max(middle.width - 2 * kReach, 0),
+          std::max(middle.height - 2 * kReach, 0)};
 }
 
 class PairMeasurer {
@@ -132,18 +135,18 @@ bool is_white(const CameraNoise& noise) {
 
 std::optional<CameraNoise> noise_between(const FrameMeasures& one, const FrameMeasures& other) {
   if (one.grid != other.grid || !one.middles || !other.middles) return std::nullopt;
-  std::vector<TilePair> tiles;
-  PairMeasurer measurer;
   int pixels = 0;
-  for (std::size_t i = 0; i < one.tiles.size(); ++i) {
-    const BrightnessPlane& middle = (*one.middles)[i];
-    const cv::Rect core = core_of(middle);
-    if (core.width < 1 || core.height < 1) continue;
-    tiles.push_back(measurer.measure(middle, (*other.middles)[i]));
-    tiles.back().brightness = 0.5 * (one.tiles[i].brightness() + other.tiles[i].brightness());
-    pixels += core.area();
-  }
+  for (const BrightnessPlane& middle : *one.middles) pixels += core_of(middle).area();
   if (pixels < kLeastPixels) return std::nullopt;
+  std::vector<TilePair> tiles(one.tiles.size());
+  cv::parallel_for_({0, static_cast<int>(tiles.size())}, [&](const cv::Range& numbers) {
+    PairMeasurer measurer;
+    for (int number = numbers.start; number < numbers.end; ++number) {
+      const auto i = static_cast<std::size_t>(number);
+      tiles[i] = measurer.measure((*one.middles)[i], (*other.middles)[i]);
+      tiles[i].brightness = 0.5 * (one.tiles[i].brightness() + other.tiles[i].brightness());
+    }
+  });
   CameraNoise noise;
   for (std::size_t band = 0; band < kDetailBands; ++band) {
     noise.bands.values[band] = noise_of_band(tiles, static_cast<DetailBand>(band));

@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "acquisition/calibration/field_correction.hpp"
+#include "acquisition/quality/camera_noise.hpp"
 #include "acquisition/quality/clipping_levels.hpp"
 #include "acquisition/quality/consecutive_frames.hpp"
 #include "acquisition/quality/face_change.hpp"
@@ -82,6 +83,14 @@ void measure(benchmark::State& state, int type) {
     benchmark::DoNotOptimize(measure_frame(image));
   }
   count_pixels(state);
+}
+
+void tell_noise(benchmark::State& state) {
+  const FrameMeasures one = measure_frame(frame(1, 2, CV_8UC3));
+  const FrameMeasures other = measure_frame(frame(1, 3, CV_8UC3));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(noise_between(one, other));
+  }
 }
 
 /// With its rows.
@@ -226,6 +235,7 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("rows/16", find_rows, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("measures/8", measure, CV_8UC3)->UseRealTime();
   benchmark::RegisterBenchmark("measures/16", measure, CV_16UC3)->UseRealTime();
+  benchmark::RegisterBenchmark("noise", tell_noise)->UseRealTime();
   benchmark::RegisterBenchmark("print/8", take_print, CV_8UC3)->UseRealTime();
   benchmark::RegisterBenchmark("print/16", take_print, CV_16UC3)->UseRealTime();
   benchmark::RegisterBenchmark("compare/same", compare, 1)->UseRealTime();
