@@ -86,8 +86,8 @@ class NoiseLine {
 
   std::optional<BandNoise> fit() const {
     if (light_squared_ <= 0.0) return std::nullopt;
-    constexpr double kLeastSpread =
-        1e-6;  // of the square of the brightness: else all are as bright
+    // Of the square of the brightness; with less all tiles are as bright.
+    constexpr double kLeastSpread = 1e-6;
     const BandNoise light_alone{.dark = 0.0, .light = noise_by_light_ / light_squared_};
     const double spread = weights_ * light_squared_ - light_ * light_;
     if (spread < kLeastSpread * weights_ * light_squared_) return light_alone;

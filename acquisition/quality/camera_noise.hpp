@@ -20,9 +20,9 @@ struct BandNoise {
 ///
 /// White noise is told from every frame alone (measure_frame). But where colours were interpolated
 /// from a mosaic of red, green and blue pixels, or a picture was sharpened, smoothed or compressed,
-/// its noise is no longer white: of a mosaic's, interpolated linearly, the gradient has 11 times
-/// what white noise would add that is as strong under Immerkær's kernel, and would take it for
-/// detail.
+/// its noise is no longer white: of a grey surface through such a mosaic, interpolated linearly,
+/// the gradient has 14 times what white noise would add that is as strong under Immerkær's kernel,
+/// and it would be taken for detail.
 struct CameraNoise {
   PerBand<BandNoise> bands;  ///< of the tiles' detail
   /// Of a FacePrint's detail; nothing when the frames were too small.

@@ -17,13 +17,6 @@ struct DetailEnergy {
   double along_y = 0.0;
 
   double sum() const { return along_x + along_y; }
-
-  friend DetailEnergy operator+(const DetailEnergy& a, const DetailEnergy& b) {
-    return {a.along_x + b.along_x, a.along_y + b.along_y};
-  }
-  friend DetailEnergy operator-(const DetailEnergy& a, const DetailEnergy& b) {
-    return {a.along_x - b.along_x, a.along_y - b.along_y};
-  }
 };
 
 /// By what detail is told apart, from the finest on.

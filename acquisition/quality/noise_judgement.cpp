@@ -22,14 +22,18 @@ constexpr std::array<NoiseMetrics, kDetailBands> kNoiseMetrics = {{
 constexpr const char* kFaceDark = "noise_face_dark";
 constexpr const char* kFaceLight = "noise_face_light";
 
-void note(const CameraNoise& noise, Judgement& judgement) {
+/// Passed, whatever they are: no frame is rejected for the camera's noise.
+void note(const CameraNoise& noise, std::vector<Metric>& metrics) {
+  const auto add = [&](const char* name, double value) {
+    metrics.push_back({.name = name, .value = value, .limit = 1.0, .passed = true});
+  };
   for (const NoiseMetrics& of : kNoiseMetrics) {
-    judgement.at_most(of.dark, noise.bands[of.band].dark, 1.0, "", "");
-    judgement.at_most(of.light, noise.bands[of.band].light, 1.0, "", "");
+    add(of.dark, noise.bands[of.band].dark);
+    add(of.light, noise.bands[of.band].light);
   }
   if (noise.face) {
-    judgement.at_most(kFaceDark, noise.face->dark, 1.0, "", "");
-    judgement.at_most(kFaceLight, noise.face->light, 1.0, "", "");
+    add(kFaceDark, noise.face->dark);
+    add(kFaceLight, noise.face->light);
   }
 }
 
@@ -47,7 +51,7 @@ void judge_noise(std::int64_t layer, SharpnessRecord& record, Judgement& judgeme
     result.noise = noise_between(*record.peak(), *result.measures);
   }
   if (result.noise) {
-    note(*result.noise, judgement);
+    note(*result.noise, result.metrics);
     if (!record.noise()) record.know_noise(*result.noise);
   }
   result.measures = record.expressed(std::move(result.measures));

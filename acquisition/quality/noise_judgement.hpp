@@ -12,7 +12,7 @@ namespace biotomy::acquisition {
 
 /// Expresses the frame's measures by what is known of the camera's noise. Where this layer's focus
 /// was searched, the frame and the search's sharpest one tell the noise anew: it is noted as
-/// metrics that nothing exceeds, and `record` learns it at once when it knew none; else only once
+/// metrics that always pass, and `record` learns it at once when it knew none; else only once
 /// the frame was accepted, since what spoils a frame may pass for noise.
 void judge_noise(std::int64_t layer, SharpnessRecord& record, Judgement& judgement);
 

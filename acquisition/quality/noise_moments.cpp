@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "acquisition/quality/face_print.hpp"
 

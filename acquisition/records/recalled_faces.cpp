@@ -50,8 +50,8 @@ std::optional<CastingColour> first_casting(
   return std::nullopt;
 }
 
-/// As the last layer tells it whose focus was searched; such a layer is at most as far back as
-/// searches are apart.
+/// As the last layer tells it whose focus was searched; where searches are rarer than this reaches
+/// back, it is told anew by the next one.
 std::optional<CameraNoise> last_noise(const JournalReader& journal, std::int64_t last) {
   constexpr std::int64_t kFarthest = 1000;
   constexpr std::int64_t kAtATime = 16;

@@ -5,7 +5,7 @@ import { dash, fixed, micrometres, significant, withUnit } from "../ui/numbers";
 
 /** How a value is held against its limit. */
 export type Bound = "least" | "most" | "within" | "none" | "unknown";
-type Unit = "ratio" | "part" | "pixels" | "micrometres";
+type Unit = "ratio" | "part" | "pixels" | "micrometres" | "energy";
 
 export interface MetricWords {
   readonly title: string;
@@ -13,8 +13,17 @@ export interface MetricWords {
   readonly unit: Unit;
 }
 
-const known = new Map<string, MetricWords>(
-  Object.entries({
+/** What noise adds to a band of detail, without light and by light. */
+const noiseOf = (band: string, title: string): [string, MetricWords][] => [
+  [
+    `noise_${band}_dark`,
+    { title: `Noise of ${title}, without light`, bound: "none", unit: "energy" },
+  ],
+  [`noise_${band}_light`, { title: `Noise of ${title}, by light`, bound: "none", unit: "energy" }],
+];
+
+const known = new Map<string, MetricWords>([
+  ...Object.entries<MetricWords>({
     sharpness_ratio: { title: "Sharpness", bound: "least", unit: "ratio" },
     sharpness_along_axis: {
       title: "Sharpness along the weaker axis",
@@ -52,7 +61,12 @@ const known = new Map<string, MetricWords>(
     focus_change: { title: "Change of the focus, a layer", bound: "within", unit: "micrometres" },
     dead_rows: { title: "Rows without a picture", bound: "most", unit: "part" },
   }),
-);
+  ...noiseOf("curvature", "the curvature"),
+  ...noiseOf("fine", "the gradient"),
+  ...noiseOf("middle", "the gradient at half the resolution"),
+  ...noiseOf("coarse", "the gradient at a quarter"),
+  ...noiseOf("face", "the face's print"),
+]);
 
 /** Of a metric that this page does not know: its name, and its numbers as they are. */
 export function metricWords(name: string): MetricWords {
@@ -75,6 +89,8 @@ export function valueText(value: number | null, words: MetricWords): string {
       return withUnit(fixed(value, 2), "px");
     case "micrometres":
       return micrometres(value, 1);
+    case "energy":
+      return significant(value, 2);
     case "ratio":
       return fixed(value, 3);
   }

@@ -11,6 +11,7 @@ it.each([
   ["shift_y", -0.001, 3, "0.00 px", "± 3.00 px"],
   ["brightness_minimum", 0.498657, 0.05, "49.9 %", "≥ 5.00 %"],
   ["casting_red", 0.195, 1, "19.5 %", "none"],
+  ["noise_fine_light", 0.0000083, 1, "0.0000083", "none"],
   ["old_part", 0, 0, "0 %", "≤ 0 %"],
   ["a_new_metric", 1.5, 2, "1.500", "2.000"],
 ])("%s of %f with the limit %f: %s, %s", (name, value, limit, valueWords, limitWords) => {
