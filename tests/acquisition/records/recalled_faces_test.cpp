@@ -28,12 +28,13 @@ struct Past {
   LayerJournal journal{sample.journal_path()};
   std::vector<std::filesystem::path> read;
 
-  void commit(std::int64_t layer, std::optional<double> change,
-              Verdict verdict = Verdict::accepted) {
+  void commit(std::int64_t layer, std::optional<double> change, Verdict verdict = Verdict::accepted,
+              const std::vector<Metric>& metrics = {}) {
     AttemptRow attempt;
     attempt.layer = layer;
     attempt.attempt = 1;
     attempt.assessment.verdict = verdict;
+    attempt.assessment.metrics = metrics;
     if (change) attempt.assessment.metrics.push_back({kFaceChange, *change, 0.01, true});
     journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
   }
@@ -59,14 +60,12 @@ std::vector<Metric> noted_noise(double of_all_bands) {
 TEST(RecalledFaces, KnowTheNoiseThatTheLastSearchedLayerWithoutAFlagNoted) {
   Past past;
   for (std::int64_t layer = 1; layer <= 40; ++layer) {
-    AttemptRow attempt;
-    attempt.layer = layer;
-    attempt.attempt = 1;
-    attempt.assessment.verdict = layer == 12 ? Verdict::accepted_with_flag : Verdict::accepted;
-    if (layer == 5) attempt.assessment.metrics = noted_noise(1e-6);
-    if (layer == 9) attempt.assessment.metrics = noted_noise(2e-6);
-    if (layer == 12) attempt.assessment.metrics = noted_noise(3e-6);
-    past.journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
+    const bool flagged = layer == 12;
+    past.commit(layer, std::nullopt, flagged ? Verdict::accepted_with_flag : Verdict::accepted,
+                layer == 5    ? noted_noise(1e-6)
+                : layer == 9  ? noted_noise(2e-6)
+                : layer == 12 ? noted_noise(3e-6)
+                              : std::vector<Metric>{});
   }
   const RecalledFaces recalled = past.recall(40);
   ASSERT_TRUE(recalled.sharpness.noise());
