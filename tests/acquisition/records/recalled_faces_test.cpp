@@ -126,15 +126,11 @@ TEST(RecalledFaces, OfLongAgoDoNotCount) {
 TEST(RecalledFaces, HaveTheLastSurfaceAndTheFirstCastingMaterial) {
   Past past;
   for (std::int64_t layer = 1; layer <= 3; ++layer) {
-    AttemptRow attempt;
-    attempt.layer = layer;
-    attempt.attempt = 1;
-    attempt.assessment.verdict = Verdict::accepted;
+    std::vector<Metric> metrics;
     for (const char* name : kCastingMetrics) {
-      if (layer > 1)
-        attempt.assessment.metrics.push_back({name, 0.1 * static_cast<double>(layer), 1.0, true});
+      if (layer > 1) metrics.push_back({name, 0.1 * static_cast<double>(layer), 1.0, true});
     }
-    past.journal.commit_layer(attempt, 1, "2026-01-01T00:00:00Z");
+    past.commit(layer, std::nullopt, Verdict::accepted, metrics);
   }
   const SurfaceRecord surfaces = past.recall(3).surfaces;
   EXPECT_EQ(surfaces.layer(), 3);
